@@ -1,0 +1,121 @@
+#include "engine/base/file.h"
+
+#include <fcntl.h>
+#include <openssl/sha.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace patchlab {
+namespace {
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  int number() const { return number_; }
+  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
+
+ private:
+  int number_;
+};
+
+std::string reason() { return std::strerror(errno); }
+
+Error unreadable(const std::string& name, const std::string& why) {
+  return {ErrorCode::unreadable, name + ": " + why};
+}
+
+std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MB"; }
+
+Result<Bytes> read_to_end(int descriptor, const std::string& name, std::uint64_t limit, std::size_t expected) {
+  Bytes bytes(expected);
+  std::size_t used = 0;
+  for (;;) {
+    if (used == bytes.size()) bytes.resize(used + std::max<std::size_t>(used / 2, 1 << 16));
+    const ssize_t got = ::read(descriptor, bytes.data() + used, bytes.size() - used);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return unreadable(name, "cannot be read: " + reason() + ".");
+    if (got == 0) break;
+    used += static_cast<std::size_t>(got);
+    if (used > limit) return unreadable(name, "is larger than the limit of " + megabytes(limit) + ".");
+  }
+  bytes.resize(used);
+  return bytes;
+}
+
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<Bytes> read_file(const std::filesystem::path& file, std::uint64_t limit) {
+  if (file == "-") return read_to_end(STDIN_FILENO, "standard input", limit, 0);
+  const std::string name = file.string();
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return unreadable(name, "cannot be opened: " + reason() + ".");
+  if (S_ISDIR(status.st_mode)) return unreadable(name, "is a folder, not a file.");
+  if (!S_ISREG(status.st_mode)) return unreadable(name, "is not a regular file (a pipe or a device).");
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  if (size == 0) return unreadable(name, "is empty.");
+  if (size > limit) {
+    return unreadable(name, "holds " + megabytes(size) + ", more than the limit of " + megabytes(limit) + ".");
+  }
+  Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (descriptor.number() < 0) return unreadable(name, "cannot be opened: " + reason() + ".");
+  return read_to_end(descriptor.number(), name, limit, size + 1);
+}
+
+Result<void> write_file(const std::filesystem::path& file, std::string_view bytes) {
+  if (file == "-") {
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0;
+    if (!written) return Error{ErrorCode::unwritable, "standard output: cannot be written: " + reason() + "."};
+    return {};
+  }
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::string temporary = file.string() + ".XXXXXX";
+  Descriptor descriptor(::mkostemp(temporary.data(), O_CLOEXEC));
+  const auto fail = [&](const std::string& what) {
+    const std::string why = reason();
+    if (descriptor.number() >= 0) ::unlink(temporary.c_str());
+    return Error{ErrorCode::unwritable, file.string() + ": cannot " + what + ": " + why + "; nothing was written."};
+  };
+  if (descriptor.number() < 0) return fail("be created");
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  if (!write_all(descriptor.number(), bytes)) return fail("be written");
+  if (::fchmod(descriptor.number(), 0666 & ~mask) != 0 || ::fsync(descriptor.number()) != 0) return fail("be saved");
+  if (::rename(temporary.c_str(), file.c_str()) != 0) return fail("be put in place");
+  Descriptor parent(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (parent.number() >= 0) ::fsync(parent.number());
+  return {};
+}
+
+std::string sha256(std::string_view bytes) {
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest.data());
+  std::string text;
+  for (const unsigned char byte : digest) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    text += digits[byte >> 4];
+    text += digits[byte & 15];
+  }
+  return text;
+}
+
+}  // namespace patchlab

@@ -1,0 +1,74 @@
+// Everything a user can do to a document, as plain data. A command stores what was asked, never what came out of it.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/base/result.h"
+#include "engine/project/document.h"
+#include "engine/region/lasso.h"
+
+namespace patchlab {
+
+struct OpenScan {
+  std::string id;
+  std::string file;                    // relative to the journal where it has one
+  std::string sha256;                  // empty: not known yet, filled in when it is applied
+  std::string noise;                   // specification; empty: the scan's default
+  bool points_in_sensor_frame = false;
+};
+struct SetNoise {
+  std::string scan, noise;
+};
+struct Select {
+  std::string region, scan;
+  SelectMode mode = SelectMode::set;
+  std::vector<Eigen::Vector2d> polygon;        // viewport pixels; empty where label or indices is used
+  ViewCamera camera;
+  bool visible_only = false;
+  std::optional<std::uint32_t> label;          // the points of one label instead
+  std::optional<std::vector<std::uint32_t>> indices;
+};
+struct Fit {
+  std::string patch, region;
+  FitOptions options;
+  std::string result_sha256;                   // hash of the result; checked on replay where present
+};
+struct Rename {
+  std::string target, name;                    // a scan, region or patch id
+};
+struct Delete {
+  std::string target;
+};
+struct Show {
+  std::string target;
+  bool visible = true;
+};
+struct Undo {};
+struct Redo {};
+
+using Command = std::variant<OpenScan, SetNoise, Select, Fit, Rename, Delete, Show, Undo, Redo>;
+
+// One line of a journal, without its newline; and back. unreadable error with what is wrong.
+nlohmann::json to_json(const Command& command);
+Result<Command> command_from_json(const nlohmann::json& json);
+// What the history list shows: "lasso mug side · 1,284 points".
+std::string describe(const Command& command, const Document& after);
+
+struct ApplyOptions {
+  std::filesystem::path folder;                // relative scan files are looked for here
+  std::optional<std::filesystem::path> on;     // replay on another scan file (--on): its bytes may differ
+  Progress progress;
+};
+
+// The document after a command other than Undo and Redo; fills in what the command left open (hashes).
+Result<Document> apply(const Document& before, Command& command, const ApplyOptions& options = {});
+// Hash of a fit's patch: its type and parameters and covariance, bit for bit.
+std::string result_hash(const FitResult& fit);
+
+}  // namespace patchlab

@@ -1,0 +1,57 @@
+// A document with its past and its journal: apply, undo, redo, save as it happens.
+//
+// The journal is one header line and one command a line of JSON. A command is acknowledged when its line is appended and
+// fsynced; only then does the document change for the viewer. A torn last line is dropped when a journal is read.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/project/command.h"
+#include "engine/project/document.h"
+
+namespace patchlab {
+
+class Session {
+ public:
+  Session() = default;  // without a file: nothing is kept
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();
+
+  // Continues a journal: replays it, then appends. Creates it where it does not exist. A second program that has it open
+  // is told (refused error).
+  static Result<Session> open(const std::filesystem::path& journal, const ApplyOptions& options = {});
+
+  // Runs a command (Undo and Redo too), appends it to the journal, then shows it. On an error nothing has changed.
+  Result<void> run(Command command, const ApplyOptions& options = {});
+  // The two halves of run(), for work off the UI thread: apply() of engine/project/command.h gives `after`.
+  Result<void> record(const Command& command, Document after);
+
+  const Document& document() const;
+  bool can_undo() const;
+  bool can_redo() const;
+  // What was done, oldest first, and how much of it stands (the rest can be redone).
+  const std::vector<std::string>& history() const;
+  std::size_t position() const;
+  const std::filesystem::path& journal() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The commands of a journal file. A bad line before the last is an error with its number.
+Result<std::vector<Command>> read_journal(std::string_view text, const std::string& name);
+std::string journal_header();
+
+// Replays a journal without writing anything. refused error where a fit's hash differs from the recorded one.
+Result<Document> replay(const std::filesystem::path& journal, const ApplyOptions& options = {});
+
+}  // namespace patchlab
