@@ -1,0 +1,52 @@
+# What viewer/run and tests/run share: the packages, one quiet way to run a long step, the build.
+# Sourced, not run.
+house=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+
+say() { printf '%s\n' "$*" >&2; }
+
+# quietly LOG COMMAND...: the output goes to build/LOG, and is shown only if the command fails.
+quietly() {
+  local log="$house/build/$1"
+  shift
+  mkdir -p "$house/build"
+  "$@" >"$log" 2>&1 </dev/null && return
+  tail -n 60 "$log" >&2
+  say "Failed: $*"
+  say "The whole output is in $log"
+  return 1
+}
+
+missing_packages() {
+  comm -23 <(sed 's/#.*//' "$house/.packages" | tr -s ' ' '\n' | sed '/^$/d' | sort -u) \
+    <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort -u)
+}
+
+# Installs what is missing of .packages; asks for nothing, and touches nothing, when all of it is there.
+install_packages() {
+  if ! command -v dpkg-query apt-get >/dev/null; then
+    say "This is not a Debian system: the build needs what these Debian packages hold, listed in $house/.packages"
+    return
+  fi
+  local missing as_root=()
+  mapfile -t missing < <(missing_packages)
+  [[ ${#missing[@]} -eq 0 ]] && return
+  if [[ $EUID -ne 0 ]]; then
+    command -v sudo >/dev/null || { say "Install as root: apt-get install ${missing[*]}"; return 1; }
+    as_root=(sudo)
+    sudo true || return 1
+  fi
+  say "Installing Debian packages (once; some minutes): ${missing[*]}"
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -y -o DPkg::Lock::Timeout=600)
+  quietly apt-update.log "${apt[@]}" update || say "Going on with the package lists that are there."
+  quietly apt-install.log "${apt[@]}" install --no-install-recommends "${missing[@]}"
+}
+
+# build PRESET TARGET...: configures and builds into build/PRESET.
+build() {
+  local preset=$1
+  shift
+  cd "$house"
+  say "Building $preset in $house/build/$preset"
+  quietly "$preset-configure.log" cmake --preset "$preset" &&
+    quietly "$preset-build.log" cmake --build --preset "$preset" --target "$@"
+}
