@@ -1,30 +1,61 @@
 // A place to draw: a GLFW window, or an EGL surfaceless context with a framebuffer. Both give the same frame.
 // ImGui's context and its OpenGL3 back end live here, with the GLFW back end for the window.
+//
+// A frame: begin_frame(), then in any order ImGui windows and GL drawing into the bound framebuffer
+// (multisampled, with depth), then end_frame(), which lays ImGui over it. ImGui's coordinates (mouse,
+// DisplaySize) are framebuffer pixels, x right, y down from the upper left corner, at every UI scale. Writes
+// no ini file.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "engine/base/result.h"
 
+struct ImFont;
+
 namespace patchlab::viewer {
 
 struct PlatformOptions {
   std::string title = "patchlab";
-  int width = 1440, height = 900;                // px
+  int width = 1440, height = 900;  // px
   bool headless = false;
-  float scale = 0.0f;                            // UI scale; 0: from the monitor (1 where headless)
+  float scale = 0.0f;  // UI scale; 0: from the monitor (1 where headless)
 };
 
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;                 // row by row from the top
+  std::vector<std::uint8_t> rgb;  // row by row from the top
 };
+// unwritable error where the file cannot be written; it appears whole or not at all.
 Result<void> write_png(const std::filesystem::path& file, const Image& image);
+
+// Inter, embedded; made for the present UI scale and valid until set_scale. Digits are all equally wide. The
+// glyphs: Latin, Greek, Cyrillic, superscripts, punctuation, arrows, mathematical signs and geometric shapes.
+struct Fonts {
+  ImFont* body;     // 13 px, ImGui's default font
+  ImFont* small;    // 11 px: key hints, secondary numbers
+  ImFont* heading;  // 11 px semi-bold: section titles, written in capitals
+  ImFont* strong;   // 13 px semi-bold: verdicts
+  ImFont* title;    // 15 px semi-bold: the name of what is shown
+};
+
+// What a mouse and a keyboard say, from a test or a replayed log. Held until the next one is given, but for
+// wheel and text, which are of one frame. ImGui 1.86 looks once a frame: hover in one, press in a second,
+// release in a third.
+struct Input {
+  float mouse_x = -1.0f, mouse_y = -1.0f;  // framebuffer px; negative: outside
+  std::array<bool, 3> buttons{};           // left, right, middle
+  float wheel = 0.0f;                      // notches, up positive
+  std::set<int> keys;  // GLFW_KEY_* codes, which index ImGuiIO::KeysDown on every platform
+  std::string text;    // UTF-8
+};
 
 class Platform {
  public:
@@ -36,17 +67,25 @@ class Platform {
   virtual void wait_events(double seconds) = 0;
   // Wakes wait_events from another thread.
   virtual void wake() = 0;
-  virtual void begin_frame() = 0;                // binds the target, starts the ImGui frame
-  virtual void end_frame() = 0;                  // renders ImGui, presents
-  virtual int width() const = 0;                 // framebuffer px
+  virtual void begin_frame() = 0;  // binds the target, starts the ImGui frame
+  virtual void end_frame() = 0;    // renders ImGui, presents
+  virtual int width() const = 0;   // framebuffer px
   virtual int height() const = 0;
-  virtual float scale() const = 0;               // UI scale
+  virtual float scale() const = 0;  // UI scale
+  virtual void set_scale(
+      float scale) = 0;  // between frames: remakes the fonts; styles are the caller's to scale
+  virtual const Fonts& fonts() const = 0;
   virtual void set_title(const std::string& title) = 0;
   virtual void on_drop(std::function<void(const std::vector<std::string>&)> callback) = 0;
-  virtual Image read_image() = 0;                // the last finished frame
+  virtual void feed(const Input& input) = 0;  // for the frames from now on; a window listens to its user only
+  virtual void resize(int width, int height) = 0;  // px
+  virtual Image read_image() = 0;                  // the last finished frame
+  virtual std::string gl_renderer()
+      const = 0;  // for the about box and bug reports: "llvmpipe (LLVM 15.0.6, ...)"
 };
 
-// unwritable is never used here; an error names what is missing (no display, no GL 3.3) and what to do.
+// The error names what is missing (no display, no GL 3.3) and what to do. One platform at a time: ImGui's and
+// GL's contexts are current for its whole life, on the thread that made it.
 Result<std::unique_ptr<Platform>> make_platform(const PlatformOptions& options);
 
 }  // namespace patchlab::viewer

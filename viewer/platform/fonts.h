@@ -1,0 +1,21 @@
+// The embedded fonts, put into ImGui's atlas.
+#pragma once
+
+#include <cstddef>
+
+#include "viewer/platform/platform.h"
+
+namespace patchlab::viewer {
+
+// Replaces what the atlas of the current ImGui context holds. The caller remakes the texture.
+Fonts load_fonts(float scale);
+
+namespace font_files {
+struct Embedded {
+  const unsigned char* bytes;
+  std::size_t size;
+};
+extern const Embedded Inter_Regular_otf, Inter_SemiBold_otf;
+}  // namespace font_files
+
+}  // namespace patchlab::viewer

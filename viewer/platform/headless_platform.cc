@@ -1,0 +1,152 @@
+#include <GLFW/glfw3.h>
+#include <epoxy/egl.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "viewer/platform/gui_frame.h"
+#include "viewer/platform/make_platform.h"
+
+namespace patchlab::viewer {
+namespace {
+
+constexpr float kFrameTime = 1.0f / 60.0f;  // s, of every frame: what is drawn never depends on the clock
+
+constexpr std::pair<ImGuiKey_, int> kKeyMap[] = {
+    {ImGuiKey_Tab, GLFW_KEY_TAB},
+    {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+    {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+    {ImGuiKey_UpArrow, GLFW_KEY_UP},
+    {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+    {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
+    {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
+    {ImGuiKey_Home, GLFW_KEY_HOME},
+    {ImGuiKey_End, GLFW_KEY_END},
+    {ImGuiKey_Insert, GLFW_KEY_INSERT},
+    {ImGuiKey_Delete, GLFW_KEY_DELETE},
+    {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+    {ImGuiKey_Space, GLFW_KEY_SPACE},
+    {ImGuiKey_Enter, GLFW_KEY_ENTER},
+    {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+    {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+    {ImGuiKey_A, GLFW_KEY_A},
+    {ImGuiKey_C, GLFW_KEY_C},
+    {ImGuiKey_V, GLFW_KEY_V},
+    {ImGuiKey_X, GLFW_KEY_X},
+    {ImGuiKey_Y, GLFW_KEY_Y},
+    {ImGuiKey_Z, GLFW_KEY_Z},
+};
+
+// An OpenGL 3.3 core context without a window or a display. EGL's surfaceless display is one for the whole
+// process and stays initialised.
+class EglContext {
+ public:
+  EglContext() = default;
+  EglContext(const EglContext&) = delete;
+  EglContext& operator=(const EglContext&) = delete;
+  ~EglContext() {
+    if (display_ == EGL_NO_DISPLAY) return;
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
+  }
+
+  bool make_current() {
+    if (!epoxy_has_egl() || !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
+      return false;
+    display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
+    if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr)) return false;
+    constexpr EGLint config[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
+    constexpr EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                  3,
+                                  EGL_CONTEXT_MINOR_VERSION,
+                                  3,
+                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                  EGL_NONE};
+    EGLConfig chosen = nullptr;
+    EGLint count = 0;
+    if (!eglBindAPI(EGL_OPENGL_API) || !eglChooseConfig(display_, config, &chosen, 1, &count) || count == 0)
+      return false;
+    context_ = eglCreateContext(display_, chosen, EGL_NO_CONTEXT, version);
+    return context_ != EGL_NO_CONTEXT && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+  }
+
+ private:
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+class HeadlessPlatform : public Platform {
+ public:
+  HeadlessPlatform(std::unique_ptr<EglContext> context, const PlatformOptions& options)
+      : context_(std::move(context)),
+        width_(options.width),
+        height_(options.height),
+        frame_(options.scale > 0.0f ? options.scale : 1.0f) {
+    ImGuiIO& io = ImGui::GetIO();
+    for (const auto& [key, code] : kKeyMap) io.KeyMap[key] = code;
+  }
+
+  bool should_close() const override { return closing_; }
+  void request_close() override { closing_ = true; }
+  void wait_events(double) override {}
+  void wake() override {}
+  void begin_frame() override {
+    put_input();
+    ImGui::GetIO().DeltaTime = kFrameTime;
+    frame_.begin(width_, height_);
+  }
+  void end_frame() override { frame_.end(); }
+  int width() const override { return width_; }
+  int height() const override { return height_; }
+  float scale() const override { return frame_.scale(); }
+  void set_scale(float scale) override { frame_.set_scale(scale); }
+  const Fonts& fonts() const override { return frame_.fonts(); }
+  void set_title(const std::string&) override {}
+  void on_drop(std::function<void(const std::vector<std::string>&)>) override {}
+  void feed(const Input& input) override { input_ = input; }
+  void resize(int width, int height) override {
+    width_ = width;
+    height_ = height;
+  }
+  Image read_image() override { return frame_.read(); }
+  std::string gl_renderer() const override { return gl_renderer_name(); }
+
+ private:
+  bool down(int key) const { return input_.keys.contains(key); }
+
+  void put_input() {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool outside = input_.mouse_x < 0.0f || input_.mouse_y < 0.0f;
+    io.MousePos = outside ? ImVec2(-FLT_MAX, -FLT_MAX) : ImVec2(input_.mouse_x, input_.mouse_y);
+    std::copy(input_.buttons.begin(), input_.buttons.end(), io.MouseDown);
+    io.MouseWheel = std::exchange(input_.wheel, 0.0f);
+    std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+    for (const int key : input_.keys) io.KeysDown[key] = true;
+    io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
+    io.KeyShift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
+    io.KeyAlt = down(GLFW_KEY_LEFT_ALT) || down(GLFW_KEY_RIGHT_ALT);
+    io.AddInputCharactersUTF8(std::exchange(input_.text, {}).c_str());
+  }
+
+  std::unique_ptr<EglContext> context_;
+  int width_, height_;
+  GuiFrame frame_;
+  Input input_;
+  bool closing_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Platform>> make_headless_platform(const PlatformOptions& options) {
+  auto context = std::make_unique<EglContext>();
+  if (!context->make_current())
+    return Error{ErrorCode::usage,
+                 "No OpenGL 3.3 without a display: EGL offers no surfaceless context; install Mesa's drivers "
+                 "(libegl1 and libgl1-mesa-dri)."};
+  if (Result<void> checked = check_gl(); !checked) return checked.error();
+  return std::unique_ptr<Platform>(std::make_unique<HeadlessPlatform>(std::move(context), options));
+}
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,147 @@
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "viewer/platform/gui_frame.h"
+#include "viewer/platform/make_platform.h"
+
+namespace patchlab::viewer {
+namespace {
+
+std::string glfw_reason() {
+  const char* reason = nullptr;
+  glfwGetError(&reason);
+  return reason != nullptr ? reason : "no reason given";
+}
+
+// GLFW and one window with a current OpenGL 3.3 core context.
+class Window {
+ public:
+  Window() = default;
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+  ~Window() {
+    if (window_ != nullptr) glfwDestroyWindow(window_);
+    if (initialised_) glfwTerminate();
+  }
+
+  Result<void> open(const PlatformOptions& options) {
+    initialised_ = glfwInit() == GLFW_TRUE;
+    if (!initialised_)
+      return Error{ErrorCode::usage, "No window can be opened (" + glfw_reason() +
+                                         "); start the viewer in a desktop session, or with --headless."};
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    window_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr)
+      return Error{ErrorCode::usage,
+                   "No window with OpenGL 3.3 can be opened (" + glfw_reason() +
+                       "); update the graphics driver, set LIBGL_ALWAYS_SOFTWARE=1 to draw without "
+                       "it, or use --headless."};
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    return check_gl();
+  }
+  GLFWwindow* get() const { return window_; }
+
+ private:
+  bool initialised_ = false;
+  GLFWwindow* window_ = nullptr;
+};
+
+float monitor_scale(GLFWwindow* window) {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(window, &x, &y);
+  return std::clamp(std::max(x, y), 0.5f, 4.0f);
+}
+
+class WindowPlatform : public Platform {
+ public:
+  WindowPlatform(std::unique_ptr<Window> window, const PlatformOptions& options)
+      : window_(std::move(window)), frame_(options.scale > 0.0f ? options.scale : monitor_scale(handle())) {
+    glfwSetWindowUserPointer(handle(), this);
+    glfwSetDropCallback(handle(), &WindowPlatform::drop);
+    ImGui_ImplGlfw_InitForOpenGL(handle(), true);
+    measure();
+  }
+  ~WindowPlatform() override { ImGui_ImplGlfw_Shutdown(); }
+
+  bool should_close() const override { return glfwWindowShouldClose(handle()) == GLFW_TRUE; }
+  void request_close() override { glfwSetWindowShouldClose(handle(), GLFW_TRUE); }
+  void wait_events(double seconds) override {
+    if (seconds > 0.0) {
+      glfwWaitEventsTimeout(seconds);
+    } else {
+      glfwPollEvents();
+    }
+  }
+  void wake() override { glfwPostEmptyEvent(); }
+  void begin_frame() override {
+    measure();
+    ImGui_ImplGlfw_NewFrame();
+    mouse_to_framebuffer();
+    frame_.begin(width_, height_);
+  }
+  void end_frame() override {
+    frame_.end();
+    frame_.present();
+    glfwSwapBuffers(handle());
+  }
+  int width() const override { return width_; }
+  int height() const override { return height_; }
+  float scale() const override { return frame_.scale(); }
+  void set_scale(float scale) override { frame_.set_scale(scale); }
+  const Fonts& fonts() const override { return frame_.fonts(); }
+  void set_title(const std::string& title) override { glfwSetWindowTitle(handle(), title.c_str()); }
+  void on_drop(std::function<void(const std::vector<std::string>&)> callback) override {
+    dropped_ = std::move(callback);
+  }
+  void feed(const Input&) override {}
+  void resize(int width, int height) override {
+    glfwSetWindowSize(handle(), static_cast<int>(static_cast<float>(width) / pixels_per_unit_),
+                      static_cast<int>(static_cast<float>(height) / pixels_per_unit_));
+  }
+  Image read_image() override { return frame_.read(); }
+  std::string gl_renderer() const override { return gl_renderer_name(); }
+
+ private:
+  static void drop(GLFWwindow* window, int count, const char** files) {
+    const auto& callback = static_cast<WindowPlatform*>(glfwGetWindowUserPointer(window))->dropped_;
+    if (callback) callback(std::vector<std::string>(files, files + count));
+  }
+  GLFWwindow* handle() const { return window_->get(); }
+
+  // A minimised window has no pixels; it is drawn as if it had one.
+  void measure() {
+    int units = 0, unused = 0;
+    glfwGetFramebufferSize(handle(), &width_, &height_);
+    glfwGetWindowSize(handle(), &units, &unused);
+    width_ = std::max(width_, 1);
+    height_ = std::max(height_, 1);
+    pixels_per_unit_ = static_cast<float>(width_) / static_cast<float>(std::max(units, 1));
+  }
+  void mouse_to_framebuffer() const {
+    ImVec2& mouse = ImGui::GetIO().MousePos;
+    if (!ImGui::IsMousePosValid(&mouse)) return;
+    mouse = ImVec2(mouse.x * pixels_per_unit_, mouse.y * pixels_per_unit_);
+  }
+
+  std::unique_ptr<Window> window_;
+  GuiFrame frame_;
+  std::function<void(const std::vector<std::string>&)> dropped_;
+  int width_ = 1, height_ = 1;    // framebuffer px
+  float pixels_per_unit_ = 1.0f;  // framebuffer px a screen unit, in which GLFW places the mouse
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Platform>> make_window_platform(const PlatformOptions& options) {
+  auto window = std::make_unique<Window>();
+  if (Result<void> opened = window->open(options); !opened) return opened.error();
+  return std::unique_ptr<Platform>(std::make_unique<WindowPlatform>(std::move(window), options));
+}
+
+}  // namespace patchlab::viewer
