@@ -1,0 +1,90 @@
+#include "engine/region/observe.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace patchlab {
+namespace {
+
+Eigen::Matrix3d full(const Covariance6& c) {
+  return (Eigen::Matrix3d() << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5]).finished();
+}
+
+// No eigenvalue below -1e-9 of the trace: exactly then does the shifted matrix have a Cholesky factor.
+bool positive_semi_definite(const Eigen::Matrix3d& cov) {
+  if (!cov.allFinite()) return false;
+  if (cov.isZero(0.0)) return true;
+  const Eigen::Matrix3d shifted = cov + 1e-9 * cov.trace() * Eigen::Matrix3d::Identity();
+  return cov.trace() > 0.0 && shifted.llt().info() == Eigen::Success;
+}
+
+// A sensor known by its position alone is taken to look along the ray.
+Viewpoint looking_at(const Eigen::Vector3d& position, const Eigen::Vector3d& point) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), point - position);
+  return {position, {q.x(), q.y(), q.z(), q.w()}, true};
+}
+
+std::string name_of(const Scan& scan) { return scan.file.empty() ? "the scan" : scan.file; }
+
+Result<Eigen::Matrix3d> stored_covariance(const Scan& scan, std::uint32_t id) {
+  const Eigen::Matrix3d cov = full(scan.covariances[id]);
+  if (positive_semi_definite(cov)) return cov;
+  return Error{ErrorCode::unreadable, name_of(scan) + ": the covariance of point " + std::to_string(id) +
+                                          " (counted from 0) is not " +
+                                          (cov.allFinite() ? "positive semi-definite" : "finite") +
+                                          "; correct it or name a sensor model with --noise."};
+}
+
+void observe_viewpoint(const Scan& scan, std::uint32_t id, Observations& observations) {
+  if (scan.viewpoints.empty()) return;
+  const Eigen::Vector3f& position = scan.viewpoints[id];
+  observations.viewpoints.push_back(position.allFinite() ? (scan.origin + position.cast<double>()).eval()
+                                                         : scan.viewpoint.position);
+}
+
+void use_sensor_model(const Scan& scan, const NoiseModel& model, Observations& observations) {
+  std::vector<Viewpoint> sensors;
+  for (std::size_t i = 0; i < observations.viewpoints.size(); ++i) {
+    sensors.push_back(looking_at(observations.viewpoints[i], observations.points[i]));
+  }
+  observations.covariance_at = [model, sensors = std::move(sensors), one = scan.viewpoint](
+                                   std::size_t i, const Eigen::Vector3d& foot) {
+    return covariance(model, sensors.empty() ? one : sensors[i], foot);
+  };
+  observations.covariances.reserve(observations.size());
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    observations.covariances.push_back(observations.covariance_at(i, observations.points[i]));
+  }
+}
+
+}  // namespace
+
+Result<Observations> observe(const Scan& scan, const NoiseModel& model, std::span<const std::uint32_t> ids,
+                             std::vector<std::uint32_t>* kept) {
+  if (model.from_file() && scan.covariances.empty()) {
+    return Error{
+        ErrorCode::usage,
+        name_of(scan) + ": holds no covariances for the noise model from_file; name a sensor model."};
+  }
+  Observations observations;
+  observations.points.reserve(ids.size());
+  if (kept != nullptr) kept->clear();
+  for (const std::uint32_t id : ids) {
+    if (!scan.finite[id]) continue;
+    observations.points.push_back(scan.point(id));
+    observe_viewpoint(scan, id, observations);
+    if (model.from_file()) {
+      Result<Eigen::Matrix3d> cov = stored_covariance(scan, id);
+      if (!cov) return cov.error();
+      observations.covariances.push_back(*cov);
+    }
+    if (kept != nullptr) kept->push_back(id);
+  }
+  if (!model.from_file()) use_sensor_model(scan, model, observations);
+  observations.viewpoint = scan.viewpoint.position;
+  const bool one_camera = scan.viewpoints.empty() && (scan.organized() || scan.format == "csv");
+  if (one_camera) observations.optical_axis = rotation(scan.viewpoint).col(2);
+  return observations;
+}
+
+}  // namespace patchlab

@@ -1,0 +1,144 @@
+#include "engine/region/polygon_mask.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patchlab {
+namespace {
+
+constexpr double kMostCells = 2048;             // a side
+constexpr std::size_t kMostRowEdges = 1 << 20;  // in all rows together
+constexpr double kLargestCoordinate = 1 << 24;  // px: up to here rounding is small against the margin
+constexpr double kMargin = 1.0 / 16.0;          // of a cell: far more than the rounding of a crossing
+
+}  // namespace
+
+std::vector<PolygonEdge> polygon_edges(const std::vector<Eigen::Vector2d>& contour) {
+  std::vector<PolygonEdge> edges;
+  edges.reserve(contour.size());
+  for (std::size_t i = 0, j = contour.size() - 1; i < contour.size(); j = i++) {
+    edges.push_back({contour[i].x(), contour[i].y(), contour[j].x(), contour[j].y()});
+  }
+  return edges;
+}
+
+bool inside_polygon(std::span<const PolygonEdge> edges, double x, double y) {
+  bool odd = false;
+  for (const PolygonEdge& edge : edges) odd ^= edge.crosses(x, y);
+  return odd;
+}
+
+PolygonMask::PolygonMask(const std::vector<Eigen::Vector2d>& contour) : edges_(polygon_edges(contour)) {
+  if (!choose_grid()) return;
+  bucket_edges();
+  mark_edge_cells();
+  fill_runs();
+}
+
+bool PolygonMask::contains(double x, double y) const {
+  if (rows_ == 0) return inside_polygon(edges_, x, y);
+  const double column = (x - low_.x()) / cell_;
+  const double row = (y - low_.y()) / cell_;
+  const bool on_grid = column >= 0.0 && row >= 0.0 && column < static_cast<double>(columns_) &&
+                       row < static_cast<double>(rows_);
+  if (!on_grid) return false;
+  const auto r = static_cast<std::ptrdiff_t>(row);
+  const Cell cell = cells_[static_cast<std::size_t>(r * columns_ + static_cast<std::ptrdiff_t>(column))];
+  return cell == on_edge ? inside_polygon(edges_of(r), x, y) : cell == inside;
+}
+
+// The smallest cell from 1 px on that keeps the grid and its row lists small; false where there is no
+// polygon, or it is not finite or far out.
+bool PolygonMask::choose_grid() {
+  if (edges_.size() < 3) return false;
+  low_ = {edges_.front().ax, edges_.front().ay};
+  Eigen::Vector2d high = low_;
+  double heights = 0.0;
+  for (const PolygonEdge& edge : edges_) {
+    const Eigen::Vector2d vertex(edge.ax, edge.ay);
+    if (!(vertex.array().abs() <= kLargestCoordinate).all()) return false;
+    low_ = low_.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+    heights += std::abs(edge.ay - edge.by);
+  }
+  low_ = (low_.array() - 1.0).floor();
+  const Eigen::Vector2d size = (high - low_).array() + 1.0;
+  const double most_heights = static_cast<double>(std::max(kMostRowEdges, 2 * edges_.size()));
+  while (size.maxCoeff() / cell_ > kMostCells || heights / cell_ > most_heights) cell_ *= 2.0;
+  columns_ = static_cast<std::ptrdiff_t>(size.x() / cell_) + 1;
+  rows_ = static_cast<std::ptrdiff_t>(size.y() / cell_) + 1;
+  return true;
+}
+
+PolygonMask::Span PolygonMask::cells_between(double v0, double v1, double origin,
+                                             std::ptrdiff_t count) const {
+  const auto index = [&](double value) {
+    return std::clamp(static_cast<std::ptrdiff_t>(std::floor((value - origin) / cell_)), std::ptrdiff_t{0},
+                      count - 1);
+  };
+  return {index(std::min(v0, v1) - kMargin * cell_), index(std::max(v0, v1) + kMargin * cell_)};
+}
+
+PolygonMask::Span PolygonMask::rows_of(const PolygonEdge& edge) const {
+  return cells_between(edge.ay, edge.by, low_.y(), rows_);
+}
+
+// An edge touches the columns between its crossings with the lower and the upper side of the row.
+PolygonMask::Span PolygonMask::columns_of(const PolygonEdge& edge, std::ptrdiff_t row) const {
+  const double rise = edge.by - edge.ay;
+  if (rise == 0.0) return cells_between(edge.ax, edge.bx, low_.x(), columns_);
+  const auto x_at = [&](double row_side) {
+    const double y = low_.y() + row_side * cell_;
+    return edge.ax + (edge.bx - edge.ax) * std::clamp((y - edge.ay) / rise, 0.0, 1.0);
+  };
+  const auto side = static_cast<double>(row);
+  return cells_between(x_at(side - kMargin), x_at(side + 1.0 + kMargin), low_.x(), columns_);
+}
+
+void PolygonMask::bucket_edges() {
+  row_start_.assign(static_cast<std::size_t>(rows_) + 1, 0);
+  for (const PolygonEdge& edge : edges_) {
+    const Span rows = rows_of(edge);
+    for (auto r = rows.first; r <= rows.last; ++r) ++row_start_[static_cast<std::size_t>(r) + 1];
+  }
+  for (std::size_t r = 1; r < row_start_.size(); ++r) row_start_[r] += row_start_[r - 1];
+  row_edges_.resize(row_start_.back());
+  std::vector<std::size_t> next(row_start_);
+  for (const PolygonEdge& edge : edges_) {
+    const Span rows = rows_of(edge);
+    for (auto r = rows.first; r <= rows.last; ++r) row_edges_[next[static_cast<std::size_t>(r)]++] = edge;
+  }
+}
+
+void PolygonMask::mark_edge_cells() {
+  cells_.assign(static_cast<std::size_t>(rows_ * columns_), outside);
+  for (std::ptrdiff_t r = 0; r < rows_; ++r) {
+    Cell* const row = cells_.data() + r * columns_;
+    for (const PolygonEdge& edge : edges_of(r)) {
+      const Span columns = columns_of(edge, r);
+      std::fill(row + columns.first, row + columns.last + 1, on_edge);
+    }
+  }
+}
+
+// No edge touches the cells between two edge cells of a row: one test decides them all.
+void PolygonMask::fill_runs() {
+  for (std::ptrdiff_t r = 0; r < rows_; ++r) {
+    Cell* const row = cells_.data() + r * columns_;
+    Cell* const end = row + columns_;
+    const double y = low_.y() + (static_cast<double>(r) + 0.5) * cell_;
+    for (Cell* first = std::find(row, end, outside); first != end;) {
+      Cell* const last = std::find(first, end, on_edge);
+      const double x = low_.x() + (static_cast<double>(first - row) + 0.5) * cell_;
+      if (inside_polygon(edges_of(r), x, y)) std::fill(first, last, inside);
+      first = std::find(last, end, outside);
+    }
+  }
+}
+
+std::span<const PolygonEdge> PolygonMask::edges_of(std::ptrdiff_t row) const {
+  const std::size_t first = row_start_[static_cast<std::size_t>(row)];
+  return {row_edges_.data() + first, row_start_[static_cast<std::size_t>(row) + 1] - first};
+}
+
+}  // namespace patchlab

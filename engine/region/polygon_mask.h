@@ -1,0 +1,59 @@
+// A polygon in pixels as a grid of cells that lie wholly inside, wholly outside or on an edge: most points
+// are decided by a look at their cell, those of edge cells by the exact test against the edges of their row
+// alone.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace patchlab {
+
+struct PolygonEdge {
+  double ax, ay, bx, by;
+
+  // True where it crosses the horizontal through y to the right of x; half open in y, so that a vertex counts
+  // once.
+  bool crosses(double x, double y) const {
+    return (ay > y) != (by > y) && x < (bx - ax) * (y - ay) / (by - ay) + ax;
+  }
+};
+
+std::vector<PolygonEdge> polygon_edges(const std::vector<Eigen::Vector2d>& contour);
+// The even-odd rule.
+bool inside_polygon(std::span<const PolygonEdge> edges, double x, double y);
+
+class PolygonMask {
+ public:
+  explicit PolygonMask(const std::vector<Eigen::Vector2d>& contour);
+
+  // Exactly inside_polygon(contour, x, y) of engine/region/lasso.h, for any x and y.
+  bool contains(double x, double y) const;
+
+ private:
+  enum Cell : std::uint8_t { outside, inside, on_edge };
+  struct Span {
+    std::ptrdiff_t first, last;  // inclusive
+  };
+
+  bool choose_grid();
+  void bucket_edges();
+  void mark_edge_cells();
+  void fill_runs();
+  Span cells_between(double v0, double v1, double origin, std::ptrdiff_t count) const;
+  Span rows_of(const PolygonEdge& edge) const;
+  Span columns_of(const PolygonEdge& edge, std::ptrdiff_t row) const;
+  std::span<const PolygonEdge> edges_of(std::ptrdiff_t row) const;
+
+  std::vector<PolygonEdge> edges_;
+  Eigen::Vector2d low_ = Eigen::Vector2d::Zero();  // corner of the grid, px
+  double cell_ = 1.0;                              // side of a cell, px: a power of two
+  std::ptrdiff_t columns_ = 0, rows_ = 0;          // 0: no grid, every point gets the exact test
+  std::vector<Cell> cells_;                        // row by row
+  std::vector<PolygonEdge> row_edges_;             // those of row r: from row_start_[r] to row_start_[r + 1]
+  std::vector<std::size_t> row_start_;
+};
+
+}  // namespace patchlab
