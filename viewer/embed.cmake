@@ -1,6 +1,6 @@
 # Files as data of the program.
 #   patchlab_embed(target NAMESPACE shaders HEADER viewer/render/embedded.h FILES a.vert b.frag ...)
-# adds to `target` a generated source that defines, for each file `a.vert`, the array `a_vert` that HEADER declares.
+# adds to `target` a generated source that defines, for each file `a.vert`, the Embedded `a_vert` (viewer/embedded.h) that HEADER declares.
 #
 # Run as a script (cmake -P) it writes that source: -DOUT=... -DNAMESPACE=... -DHEADER=... -DFILES=a|b
 if(NOT CMAKE_SCRIPT_MODE_FILE)
@@ -23,13 +23,13 @@ endif()
 set(source "#include \"${HEADER}\"\n\nnamespace patchlab::viewer::${NAMESPACE} {\n")
 string(REPLACE "|" ";" files "${FILES}")
 foreach(file ${files})
-  get_filename_component(name ${file} NAME)
-  string(MAKE_C_IDENTIFIER ${name} name)
+  get_filename_component(file_name ${file} NAME)
+  string(MAKE_C_IDENTIFIER ${file_name} name)
   file(READ ${file} hex HEX)
   string(LENGTH "${hex}" digits)
   math(EXPR size "${digits} / 2")
   string(REGEX REPLACE "(..)" "0x\\1," bytes "${hex}")
   string(APPEND source "\nstatic constexpr unsigned char ${name}_bytes[] = {${bytes}};\n"
-                       "const Embedded ${name}{${name}_bytes, ${size}};\n")
+                       "const Embedded ${name}{\"${file_name}\", ${name}_bytes, ${size}};\n")
 endforeach()
 file(WRITE ${OUT} "${source}\n}\n")

@@ -1,8 +1,7 @@
 // The embedded fonts, put into ImGui's atlas.
 #pragma once
 
-#include <cstddef>
-
+#include "viewer/embedded.h"
 #include "viewer/platform/platform.h"
 
 namespace patchlab::viewer {
@@ -11,10 +10,6 @@ namespace patchlab::viewer {
 Fonts load_fonts(float scale);
 
 namespace font_files {
-struct Embedded {
-  const unsigned char* bytes;
-  std::size_t size;
-};
 extern const Embedded Inter_Regular_otf, Inter_SemiBold_otf;
 }  // namespace font_files
 

@@ -1,4 +1,5 @@
-// Draws a scene with OpenGL 3.3 core into the bound framebuffer. A current GL context is required for its whole life.
+// Draws a scene with OpenGL 3.3 core into the bound framebuffer. A current GL context is required for its
+// whole life.
 #pragma once
 
 #include <memory>
@@ -10,12 +11,13 @@
 namespace patchlab::viewer {
 
 struct Viewport {
-  int x = 0, y = 0, width = 0, height = 0;       // framebuffer pixels, y from the lower edge
+  int x = 0, y = 0, width = 0, height = 0;  // framebuffer pixels, y from the lower edge
 };
 
 class Renderer {
  public:
-  // Compiles the embedded shaders; in a debug build they are read from `shaders/` of the source tree when it is there.
+  // Compiles the embedded shaders; in a debug build they are read from `shaders/` of the source tree when it
+  // is there.
   static Result<Renderer> create();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;

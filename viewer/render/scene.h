@@ -1,6 +1,6 @@
-// A plain list of things to draw: what the app makes of a document, and the renderer draws. Knows no GL and no ImGui.
-// Positions in metre about `origin` of the scene. Shared arrays are never changed once they are in a scene: a new array
-// is a new pointer, by which the renderer knows what it has on the GPU already.
+// A plain list of things to draw: what the app makes of a document, and the renderer draws. Knows no GL and
+// no ImGui. Positions in metre about `origin` of the scene. Shared arrays are never changed once they are in
+// a scene: a new array is a new pointer, by which the renderer knows what it has on the GPU already.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,41 +11,42 @@
 
 namespace patchlab::viewer {
 
-using Rgba = std::array<float, 4>;               // straight alpha, sRGB, 0..1
+using Rgba = std::array<float, 4>;  // straight alpha, sRGB, 0..1
 using Rgba8 = std::array<std::uint8_t, 4>;
 
 template <class T>
 using Shared = std::shared_ptr<const std::vector<T>>;
 
 struct PointsItem {
-  Shared<Eigen::Vector3f> positions;             // NaN positions are skipped
-  Shared<Rgba8> colours;                         // one a point
-  float size = 2.0f;                             // px
+  Shared<Eigen::Vector3f> positions;  // NaN positions are skipped
+  Shared<Rgba8> colours;              // one a point; alpha: 0 leaves it out, between fades to the background
+  float size = 2.0f;                  // px
 };
 
 struct MeshVertex {
   Eigen::Vector3f position;
   Eigen::Vector3f normal;
-  Rgba8 colour;                                  // alpha below 255: translucent
+  Rgba8 colour;  // alpha below 255: translucent
 };
 struct MeshItem {
   Shared<MeshVertex> vertices;
-  Shared<std::uint32_t> triangles;               // three a triangle
+  Shared<std::uint32_t> triangles;  // three a triangle
   bool lit = true;
 };
 
 struct LineItem {
-  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> points{};
   Rgba colour{};
-  float width = 2.0f;                            // px
+  float width = 2.0f;  // px
   bool closed = false;
-  bool on_top = false;                           // drawn over everything (axes, ellipsoid rims)
+  bool on_top = false;        // drawn over everything (axes, ellipsoid rims)
+  float hidden_alpha = 1.0f;  // on_top: opacity of the part that points or opaque meshes hide
 };
 
 struct Scene {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<PointsItem> points;
-  std::vector<MeshItem> meshes;                  // opaque first, then translucent back to front by centre
+  std::vector<MeshItem> meshes;  // opaque first, then translucent back to front by centre
   std::vector<LineItem> lines;
   Rgba background_top{}, background_bottom{};
 };

@@ -1,0 +1,86 @@
+#include "viewer/render/point_pass.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace patchlab::viewer {
+namespace {
+
+// What points.vert takes for "absent": comparing with NaN is not reliable in shaders.
+constexpr float kAbsent = std::numeric_limits<float>::max();
+
+GlBuffer upload_colours(const std::vector<Rgba8>& colours) {
+  GlBuffer buffer;
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(colours.size() * sizeof(Rgba8)), colours.data(),
+               GL_STATIC_DRAW);
+  return buffer;
+}
+
+}  // namespace
+
+Result<PointPass> PointPass::create() {
+  Result<Program> program = Program::link(shaders::points_vert, shaders::points_frag);
+  if (!program) return program.error();
+  return PointPass(std::move(*program));
+}
+
+bool PointPass::complete(const PointsItem& item) {
+  return item.positions && item.colours && !item.positions->empty() &&
+         item.positions->size() == item.colours->size();
+}
+
+PointPass::Positions PointPass::upload(const std::vector<Eigen::Vector3f>& positions) {
+  Positions resident;
+  std::vector<Eigen::Vector3f> finite = positions;
+  for (Eigen::Vector3f& position : finite) {
+    if (position.allFinite()) {
+      resident.box.extend(position);
+    } else {
+      position.setConstant(kAbsent);
+    }
+  }
+  glBindBuffer(GL_ARRAY_BUFFER, resident.buffer.name());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(finite.size() * sizeof(Eigen::Vector3f)),
+               finite.data(), GL_STATIC_DRAW);
+  return resident;
+}
+
+const PointPass::Positions& PointPass::resident(const PointsItem& item) {
+  return positions_.get(item.positions, upload);
+}
+
+void PointPass::prepare(const std::vector<PointsItem>& items, Box& box) {
+  for (const PointsItem& item : items)
+    if (complete(item)) box.extend(resident(item).box);
+}
+
+void PointPass::bind(const PointsItem& item) {
+  glBindVertexArray(arrays_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, resident(item).buffer.name());
+  attribute(0, 3, GL_FLOAT, sizeof(Eigen::Vector3f), 0);
+  glBindBuffer(GL_ARRAY_BUFFER, colours_.get(item.colours, upload_colours).name());
+  attribute(1, 4, GL_UNSIGNED_BYTE, sizeof(Rgba8), 0);
+}
+
+void PointPass::draw(const std::vector<PointsItem>& items, const View& view,
+                     const Eigen::Vector3f& background) {
+  program_.use();
+  set_view(program_, view);
+  const float depth_of_fade = std::max(view.farthest - view.nearest, view.height);
+  program_.set("depth_cue", Eigen::Vector2f(view.nearest, view.nearest + depth_of_fade));
+  program_.set("background", background);
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  for (const PointsItem& item : items) {
+    if (!complete(item)) continue;
+    program_.set("size", item.size);
+    bind(item);
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(item.positions->size()));
+  }
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  positions_.drop_unheld();
+  colours_.drop_unheld();
+}
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,86 @@
+#include "viewer/render/renderer.h"
+
+#include "viewer/render/line_pass.h"
+#include "viewer/render/mesh_pass.h"
+#include "viewer/render/point_pass.h"
+
+namespace patchlab::viewer {
+namespace {
+
+Eigen::Vector3f rgb(const Rgba& colour) { return {colour[0], colour[1], colour[2]}; }
+
+void begin(const Viewport& viewport) {
+  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  glScissor(viewport.x, viewport.y, viewport.width, viewport.height);
+  glEnable(GL_SCISSOR_TEST);
+  glEnable(GL_MULTISAMPLE);
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+  glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+void end() {
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+}  // namespace
+
+struct Renderer::State {
+  Program background;
+  PointPass points;
+  MeshPass meshes;
+  LinePass lines;
+  GlVertexArray no_arrays;
+
+  void draw_background(const Scene& scene) const {
+    glDisable(GL_DEPTH_TEST);
+    background.use();
+    background.set("top", rgb(scene.background_top));
+    background.set("bottom", rgb(scene.background_bottom));
+    glBindVertexArray(no_arrays.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glEnable(GL_DEPTH_TEST);
+  }
+};
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Result<Renderer> Renderer::create() {
+  Result<Program> background = Program::link(shaders::background_vert, shaders::background_frag);
+  if (!background) return background.error();
+  Result<PointPass> points = PointPass::create();
+  if (!points) return points.error();
+  Result<MeshPass> meshes = MeshPass::create();
+  if (!meshes) return meshes.error();
+  Result<LinePass> lines = LinePass::create();
+  if (!lines) return lines.error();
+  return Renderer(std::make_unique<State>(
+      State{std::move(*background), std::move(*points), std::move(*meshes), std::move(*lines), {}}));
+}
+
+void Renderer::draw(const Scene& scene, const ViewCamera& camera, const Viewport& viewport) {
+  if (viewport.width <= 0 || viewport.height <= 0) return;
+  Box box;
+  state_->points.prepare(scene.points, box);
+  state_->meshes.prepare(scene.meshes, box);
+  LinePass::grow(box, scene.lines);
+  const View view = make_view(camera, viewport, scene.origin, box);
+
+  begin(viewport);
+  state_->draw_background(scene);
+  state_->points.draw(scene.points, view, 0.5f * (rgb(scene.background_top) + rgb(scene.background_bottom)));
+  state_->meshes.draw(scene.meshes, view);
+  state_->lines.draw(scene.lines, view);
+  end();
+}
+
+}  // namespace patchlab::viewer

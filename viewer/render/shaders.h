@@ -1,0 +1,11 @@
+// The files of shaders/, embedded at build time.
+#pragma once
+
+#include "viewer/embedded.h"
+
+namespace patchlab::viewer::shaders {
+
+extern const Embedded background_vert, background_frag, points_vert, points_frag, mesh_vert, mesh_frag,
+    lines_vert, lines_frag;
+
+}  // namespace patchlab::viewer::shaders

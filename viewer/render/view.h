@@ -1,0 +1,32 @@
+// What every pass needs of the camera.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "engine/region/lasso.h"
+#include "viewer/render/program.h"
+#include "viewer/render/renderer.h"
+
+namespace patchlab::viewer {
+
+using Box = Eigen::AlignedBox3f;
+
+struct View {
+  Eigen::Matrix4f clip_from_view, view_from_local;  // local: about the origin of the scene
+  float near_depth;                                 // m, the near plane, close before what is drawn
+  float nearest, farthest;                          // m, depths of what is drawn
+  float height;                                     // m, of the viewport at `nearest`
+  bool perspective;
+  Viewport viewport;
+};
+
+// `local` is the box of all that is drawn; the clip planes are put close around it, near never before the
+// camera's.
+View make_view(const ViewCamera& camera, const Viewport& viewport, const Eigen::Vector3d& origin,
+               const Box& local);
+
+// Sets the uniforms clip_from_view and view_from_local of the program in use.
+void set_view(const Program& program, const View& view);
+
+}  // namespace patchlab::viewer
