@@ -37,8 +37,8 @@ PolygonMask::PolygonMask(const std::vector<Eigen::Vector2d>& contour) : edges_(p
 
 bool PolygonMask::contains(double x, double y) const {
   if (rows_ == 0) return inside_polygon(edges_, x, y);
-  const double column = (x - low_.x()) / cell_;
-  const double row = (y - low_.y()) / cell_;
+  const double column = (x - low_.x()) * cells_a_pixel_;
+  const double row = (y - low_.y()) * cells_a_pixel_;
   const bool on_grid = column >= 0.0 && row >= 0.0 && column < static_cast<double>(columns_) &&
                        row < static_cast<double>(rows_);
   if (!on_grid) return false;
@@ -65,6 +65,7 @@ bool PolygonMask::choose_grid() {
   const Eigen::Vector2d size = (high - low_).array() + 1.0;
   const double most_heights = static_cast<double>(std::max(kMostRowEdges, 2 * edges_.size()));
   while (size.maxCoeff() / cell_ > kMostCells || heights / cell_ > most_heights) cell_ *= 2.0;
+  cells_a_pixel_ = 1.0 / cell_;
   columns_ = static_cast<std::ptrdiff_t>(size.x() / cell_) + 1;
   rows_ = static_cast<std::ptrdiff_t>(size.y() / cell_) + 1;
   return true;

@@ -50,6 +50,7 @@ class PolygonMask {
   std::vector<PolygonEdge> edges_;
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();  // corner of the grid, px
   double cell_ = 1.0;                              // side of a cell, px: a power of two
+  double cells_a_pixel_ = 1.0;                     // 1 / cell_, exact
   std::ptrdiff_t columns_ = 0, rows_ = 0;          // 0: no grid, every point gets the exact test
   std::vector<Cell> cells_;                        // row by row
   std::vector<PolygonEdge> row_edges_;             // those of row r: from row_start_[r] to row_start_[r + 1]
