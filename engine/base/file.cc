@@ -62,6 +62,14 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
+// A device or a pipe, which no new file may replace.
+Result<void> write_in_place(const std::filesystem::path& file, std::string_view bytes) {
+  Descriptor descriptor(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  const bool written = descriptor.number() >= 0 && write_all(descriptor.number(), bytes) && descriptor.close();
+  if (!written) return Error{ErrorCode::unwritable, file.string() + ": cannot be written: " + reason() + "."};
+  return {};
+}
+
 }  // namespace
 
 Result<Bytes> read_file(const std::filesystem::path& file, std::uint64_t limit) {
@@ -87,8 +95,14 @@ Result<void> write_file(const std::filesystem::path& file, std::string_view byte
     if (!written) return Error{ErrorCode::unwritable, "standard output: cannot be written: " + reason() + "."};
     return {};
   }
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  std::string temporary = file.string() + ".XXXXXX";
+  struct stat status {};
+  const bool exists = ::stat(file.c_str(), &status) == 0;
+  if (exists && !S_ISREG(status.st_mode)) return write_in_place(file, bytes);
+  std::error_code no_link;
+  const std::filesystem::path target = exists ? std::filesystem::canonical(file, no_link) : file;
+  if (no_link) return Error{ErrorCode::unwritable, file.string() + ": cannot be found: " + no_link.message() + "."};
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  std::string temporary = target.string() + ".XXXXXX";
   Descriptor descriptor(::mkostemp(temporary.data(), O_CLOEXEC));
   const auto fail = [&](const std::string& what) {
     const std::string why = reason();
@@ -100,7 +114,7 @@ Result<void> write_file(const std::filesystem::path& file, std::string_view byte
   ::umask(mask);
   if (!write_all(descriptor.number(), bytes)) return fail("be written");
   if (::fchmod(descriptor.number(), 0666 & ~mask) != 0 || ::fsync(descriptor.number()) != 0) return fail("be saved");
-  if (::rename(temporary.c_str(), file.c_str()) != 0) return fail("be put in place");
+  if (::rename(temporary.c_str(), target.c_str()) != 0) return fail("be put in place");
   Descriptor parent(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (parent.number() >= 0) ::fsync(parent.number());
   return {};

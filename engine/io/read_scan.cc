@@ -126,7 +126,7 @@ std::string_view recognise(std::string_view bytes) {
   return "in no format that is known here";
 }
 
-Result<Scan> read_bytes(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+Result<Scan> dispatch(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   if (bytes.empty()) return unreadable(name, "is empty.");
   if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
   for (const ReaderRow& row : readers) {
@@ -137,12 +137,20 @@ Result<Scan> read_bytes(std::string_view bytes, const std::string& name, const R
 
 }  // namespace
 
+Result<Scan> read_scan_bytes(std::string_view bytes, const std::string& name, const ReadOptions& options) try {
+  Result<Scan> scan = dispatch(bytes, name, options);
+  if (scan) scan->file = name;
+  return scan;
+} catch (const std::bad_alloc&) {
+  return unreadable(name, "there is not enough memory to read it.");
+}
+
 Result<Scan> read_scan(const std::filesystem::path& file, const ReadOptions& options) {
   const std::string name = file == "-" ? "standard input" : file.string();
   try {
     const Result<Bytes> bytes = read_file(file);
     if (!bytes) return bytes.error();
-    Result<Scan> scan = read_bytes(as_text(*bytes), name, options);
+    Result<Scan> scan = read_scan_bytes(as_text(*bytes), name, options);
     if (scan) scan->file = file.string();
     return scan;
   } catch (const std::bad_alloc&) {

@@ -21,6 +21,8 @@ struct ReadOptions {
 
 // By content, not by extension alone. "-" is standard input.
 Result<Scan> read_scan(const std::filesystem::path& file, const ReadOptions& options = {});
+// The same from bytes already read; `name` is for messages and becomes Scan::file.
+Result<Scan> read_scan_bytes(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 
 // The single formats, from bytes already read; `name` is for messages.
 Result<Scan> read_pcd(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
