@@ -19,8 +19,8 @@ struct Boundary {
   BoundaryVector d;
 };
 
-// Signed metric function: <= 0 inside and on the edge. Ellipse and circle: e of Eq. (17) (dimensionless); rectangle and
-// quad: q of Eq. (19) with each line function divided by its edge length (m).
+// Signed metric function: <= 0 inside and on the edge. Ellipse and circle: e of Eq. (17) (dimensionless);
+// rectangle and quad: q of Eq. (19) with each line function divided by its edge length (m).
 double boundary_function(const Vector2d& u, const Boundary& boundary);
 bool contains(const Boundary& boundary, const Vector2d& u);
 double area(const Boundary& boundary);  // of the projection on the xy plane, m^2
@@ -28,11 +28,12 @@ double area(const Boundary& boundary);  // of the projection on the xy plane, m^
 // The vertices v_1..v_4 counterclockwise, Eqs. (18), (21). Precondition: rectangle or convex quad.
 std::array<Vector2d, 4> vertices(const Boundary& boundary);
 
-// A closed curve counterclockwise (the first point is not repeated), with at least `count` points; the corners of
-// rectangles and quads are among them.
+// A closed curve counterclockwise (the first point is not repeated), with at least `count` points; the
+// corners of rectangles and quads are among them.
 std::vector<Vector2d> outline(const Boundary& boundary, int count);
 
-// The outline point at fraction s in [0, 1) of the way round and its derivative for d (2 x n): the outline band.
+// The outline point at fraction s in [0, 1) of the way round and its derivative for d (2 x n): the outline
+// band.
 struct OutlinePoint {
   Vector2d u;
   Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 5> J_u_d;

@@ -1,5 +1,6 @@
-// What the covariance of a patch says about things one can see: the centre, the normal, the outline, the height.
-// Each is read from covariance_local, to first order. Precondition: patch.covariance_local is present.
+// What the covariance of a patch says about things one can see: the centre, the normal, the outline, the
+// height. Each is read from covariance_local, to first order. Precondition: patch.covariance_local is
+// present.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +13,9 @@ namespace patchlab {
 // Covariance of the centre c in the world frame, m^2.
 Matrix3d cov_centre(const Patch& patch);
 
-// An ellipsoid that holds `probability`: axes are unit columns sorted by length (longest first), right-handed, with
-// signs fixed (largest component positive) so that they do not flicker; half_lengths in metre, zero for a flat one.
+// An ellipsoid that holds `probability`: axes are unit columns sorted by length (longest first),
+// right-handed, with signs fixed (largest component positive) so that they do not flicker; half_lengths in
+// metre, zero for a flat one.
 struct Ellipsoid {
   Vector3d centre;
   Matrix3d axes;
@@ -22,8 +24,8 @@ struct Ellipsoid {
 Ellipsoid ellipsoid(const Vector3d& centre, const Matrix3d& covariance, double probability);
 Ellipsoid centre_ellipsoid(const Patch& patch, double probability);
 
-// The cone that the normal z_l stays in with `probability`: half angles about two body axes (radian), longest first;
-// axis columns are directions in the world, perpendicular to z_l.
+// The cone that the normal z_l stays in with `probability`: half angles about two body axes (radian), longest
+// first; axis columns are directions in the world, perpendicular to z_l.
 struct NormalCone {
   Vector3d apex;
   Vector3d normal;
@@ -32,7 +34,8 @@ struct NormalCone {
 };
 NormalCone normal_cone(const Patch& patch, double probability);
 
-// Standard deviation of the height of the surface at u, along the local surface normal, m: from kappa and pose.
+// Standard deviation of the height of the surface at u, along the local surface normal, m: from kappa and
+// pose.
 double height_sigma(const Patch& patch, const Vector2d& u);
 
 // A point of the outline with the standard deviation of its place in the tangent plane, across the curve, m.
@@ -43,7 +46,8 @@ struct BandPoint {
 };
 std::vector<BandPoint> outline_band(const Patch& patch, int count);
 
-// Standard deviation per parameter and correlation matrix (zero where a variance is zero), in parameter order.
+// Standard deviation per parameter and correlation matrix (zero where a variance is zero), in parameter
+// order.
 PatchVector sigmas(const PatchMatrix& covariance);
 PatchMatrix correlation(const PatchMatrix& covariance);
 

@@ -25,13 +25,13 @@ enum class SurfaceType {
 struct PatchTypeRow {
   SurfaceType surface;
   BoundaryType boundary;
-  int boundary_size;                                             // number of d parameters
-  int curvature_size;                                            // number of kappas: columns of B
-  int rotation_size;                                             // 3: r, or 2: r_xy (revolute symmetry)
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2> B;           // k3 = B k (errata D10)
+  int boundary_size;                                    // number of d parameters
+  int curvature_size;                                   // number of kappas: columns of B
+  int rotation_size;                                    // 3: r, or 2: r_xy (revolute symmetry)
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2> B;  // k3 = B k (errata D10)
 
   int size() const { return boundary_size + curvature_size + rotation_size + 3; }  // DoF column of Table I
-  int curvature_at() const { return boundary_size; }             // index of the first kappa
+  int curvature_at() const { return boundary_size; }                               // index of the first kappa
   int rotation_at() const { return boundary_size + curvature_size; }
   int position_at() const { return rotation_at() + rotation_size; }
   bool revolute() const { return rotation_size == 2; }
@@ -49,8 +49,8 @@ std::string_view name(BoundaryType boundary);  // "ellipse" ...
 std::optional<SurfaceType> surface_from_name(std::string_view name);
 std::optional<BoundaryType> boundary_from_name(std::string_view name);
 
-// Names of the parameters in order: d_x d_y | d | d_1 d_2 d_3 d_4 gamma; kappa_x kappa_y | kappa; r_x r_y r_z | r_x r_y;
-// c_x c_y c_z.
+// Names of the parameters in order: d_x d_y | d | d_1 d_2 d_3 d_4 gamma; kappa_x kappa_y | kappa; r_x r_y r_z
+// | r_x r_y; c_x c_y c_z.
 std::vector<std::string> parameter_names(const PatchTypeRow& type);
 // Names in the local chart: the same d and kappa, then w_x w_y w_z or tilt_x tilt_y, then t_x t_y t_z.
 std::vector<std::string> local_names(const PatchTypeRow& type);
