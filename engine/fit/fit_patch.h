@@ -1,7 +1,7 @@
 // Section IV: fit a bounded patch to points with covariances, and the covariance of the result.
 //
-// Two methods. `calibrated` (default) is the method of fitting.md section 3, whose covariance is proven by Monte Carlo;
-// `paper` is the nine steps of the paper as printed, with the errata that make them computable.
+// Two methods. `calibrated` (default) is the method of fitting.md section 3, whose covariance is proven by
+// Monte Carlo; `paper` is the nine steps of the paper as printed, with the errata that make them computable.
 #pragma once
 
 #include <cstdint>
@@ -44,26 +44,26 @@ std::optional<BoundsMethod> bounds_method_from_name(std::string_view name);
 
 // Limits of the validation (research/mission.md section 4 for their source).
 struct ValidationLimits {
-  double p_value = 1e-3;            // chi-square below it: the noise model or the type is wrong
-  double residual_rms = 0.01;       // m
-  double coverage = 0.75;           // share of the patch's cells that hold their share of points
-  double curvature_extent = 1.5;    // |kappa| times the patch radius
+  double p_value = 1e-3;          // chi-square below it: the noise model or the type is wrong
+  double residual_rms = 0.01;     // m
+  double coverage = 0.75;         // share of the patch's cells that hold their share of points
+  double curvature_extent = 1.5;  // |kappa| times the patch radius
 };
 
 struct FitOptions {
   SurfaceRequest surface = SurfaceRequest::automatic;
   BoundaryRequest boundary = BoundaryRequest::automatic;
   FitMethod method = FitMethod::calibrated;
-  std::optional<BoundsMethod> bounds;      // absent: follows the method
-  std::optional<double> containment;       // Gamma in (0, 1]; absent: 1 for extent, 0.95 for paper
-  bool robust = false;                     // RANSAC quadric and Tukey weights
-  std::uint64_t seed = 1;                  // of the robust fit's draws
+  std::optional<BoundsMethod> bounds;  // absent: follows the method
+  std::optional<double> containment;   // Gamma in (0, 1]; absent: 1 for extent, 0.95 for paper
+  bool robust = false;                 // RANSAC quadric and Tukey weights
+  std::uint64_t seed = 1;              // of the robust fit's draws
   ValidationLimits limits;
 };
 
 // A named finding with its value and limit, and the sentence for the user.
 struct Finding {
-  std::string name;      // chi_square, residual, coverage, curvature, axis_undetermined, ...
+  std::string name;  // chi_square, residual, coverage, curvature, axis_undetermined, ...
   double value = 0.0;
   double limit = 0.0;
   std::string sentence;
@@ -74,9 +74,9 @@ struct Candidate {
   SurfaceType surface;
   double chi2 = 0.0;
   int dof = 0;
-  double bic = 0.0;        // chi2 + p_eff ln N; the least is chosen
+  double bic = 0.0;  // chi2 + p_eff ln N; the least is chosen
   bool chosen = false;
-  std::string reason;      // empty or a sentence
+  std::string reason;  // empty or a sentence
 };
 
 struct FitReport {
@@ -84,31 +84,32 @@ struct FitReport {
   BoundsMethod bounds = BoundsMethod::extent;
   double containment = 1.0;
   bool robust = false;
-  std::size_t points = 0;                  // observations used, outliers not counted
-  std::vector<std::uint32_t> outliers;     // indices of flagged observations, ascending
+  std::size_t points = 0;               // observations used, outliers not counted
+  std::vector<std::uint32_t> outliers;  // indices of flagged observations, ascending
   double chi2 = 0.0;
   int dof = 0;
   double p_value = 0.0;
   int iterations = 0;
   bool converged = false;
-  double residual_rms = 0.0;               // m, orthogonal distance to the bounded patch's surface
-  double coverage = 0.0;                   // in [0, 1]
+  double residual_rms = 0.0;  // m, orthogonal distance to the bounded patch's surface
+  double coverage = 0.0;      // in [0, 1]
   bool accepted = false;
-  std::vector<Finding> reasons;            // why it was not accepted
-  std::vector<Finding> warnings;           // what the user should know of an accepted one
-  std::string verdict;                     // one sentence
-  std::vector<Candidate> candidates;       // best first
-  std::vector<double> residuals;           // per observation, signed, in standard deviations
-  std::vector<std::string> steps;          // the nine steps with their numbers (--explain)
+  std::vector<Finding> reasons;       // why it was not accepted
+  std::vector<Finding> warnings;      // what the user should know of an accepted one
+  std::string verdict;                // one sentence
+  std::vector<Candidate> candidates;  // best first
+  std::vector<double> residuals;      // per observation, signed, in standard deviations
+  std::vector<std::string> steps;     // the nine steps with their numbers (--explain)
 };
 
 struct FitResult {
-  Patch patch;        // covariance and covariance_local present
+  Patch patch;  // covariance and covariance_local present
   FitReport report;
 };
 
-// The fit. Errors: usage (an impossible request), no_finite_fit (too few, coincident or collinear points, a covariance
-// that is not positive semi-definite, with its row), cancelled.
-Result<FitResult> fit_patch(const Observations& observations, const FitOptions& options, const Progress& progress = {});
+// The fit. Errors: usage (an impossible request), no_finite_fit (too few, coincident or collinear points, a
+// covariance that is not positive semi-definite, with its row), cancelled.
+Result<FitResult> fit_patch(const Observations& observations, const FitOptions& options,
+                            const Progress& progress = {});
 
 }  // namespace patchlab

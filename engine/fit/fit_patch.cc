@@ -1,0 +1,25 @@
+#include "engine/fit/fit_patch.h"
+
+#include "engine/fit/steps.h"
+
+namespace patchlab {
+
+Result<FitResult> fit_patch(const Observations& observations, const FitOptions& options,
+                            const Progress& progress) {
+  Result<Workbench> work = begin(observations, options);
+  if (!work) return work.error();
+  fit_plane(*work);  // 1. a plane by least squares
+  if (!keep_going(progress, 0.1)) return Error{ErrorCode::cancelled, "The fit was cancelled."};
+  fit_surfaces(*work);  // 2. unbounded surfaces by weighted Levenberg-Marquardt
+  if (!keep_going(progress, 0.7)) return Error{ErrorCode::cancelled, "The fit was cancelled."};
+  refine_type(*work);       // 3. the type that the curvatures ask for
+  choose_boundary(*work);   // 4. its boundary, and the scale that containment gives
+  project_points(*work);    // 5. the points on the surface, and their moments
+  bound_cylinder(*work);    // 6. a rectangle for cylinders
+  bound_revolute(*work);    // 7. a circle for surfaces of revolution
+  bound_paraboloid(*work);  // 8. an ellipse for paraboloids
+  bound_plane(*work);       // 9. any of the four for planes
+  return conclude(*work);
+}
+
+}  // namespace patchlab

@@ -1,0 +1,185 @@
+#include "engine/fit/fit_surface.h"
+
+#include <cmath>
+#include <limits>
+
+#include "engine/patch/surface.h"
+
+namespace patchlab {
+namespace {
+
+constexpr double tukey_constant = 4.685;  // 95 % efficiency on clean normal data
+
+double tukey_loss(double F) {
+  const double inside = 1.0 - std::min(F * F / (tukey_constant * tukey_constant), 1.0);
+  return tukey_constant * tukey_constant / 3.0 * (1.0 - inside * inside * inside);
+}
+
+// The problem that engine/fit/least_squares.h solves, Eq. (33), with the prior as two more residuals.
+class SurfaceProblem {
+ public:
+  using State = SurfaceState;
+
+  SurfaceProblem(const Samples& samples, const SurfaceModel& model, const SurfaceFitOptions& options,
+                 const std::optional<VertexPrior>& prior)
+      : samples_(samples), model_(model), options_(options), prior_(prior) {}
+
+  NormalEquations evaluate(const SurfaceState& state) const {
+    ChartMatrix A = ChartMatrix::Zero();
+    ChartVector b = ChartVector::Zero();
+    double cost = 0.0;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (samples_.robust[i] == 0.0) continue;
+      const Residual r = residual(options_.distance, model_, state, samples_.q[i], samples_.cov[i]);
+      const double weight = options_.robust ? tukey_weight(r.F) : 1.0;
+      cost += options_.robust ? tukey_loss(r.F) : r.F * r.F;
+      A.noalias() += weight * r.F_p * r.F_p.transpose();
+      b.noalias() += weight * r.F * r.F_p;
+    }
+    if (prior_) add_prior(state, A, b, cost);
+    return reduced(A, b, cost);
+  }
+
+  SurfaceState retract(const SurfaceState& state, const StepVector& step) const {
+    return patchlab::retract(state, spread(model_, step));
+  }
+
+ private:
+  void add_prior(const SurfaceState& state, ChartMatrix& A, ChartVector& b, double& cost) const {
+    for (int axis = 0; axis < 2; ++axis) {
+      const Vector3d tangent = prior_->tangents.col(axis) / prior_->sigma;
+      const double F = tangent.dot(state.c - prior_->centre);
+      ChartVector F_p = ChartVector::Zero();
+      F_p.tail<3>() = state.R.transpose() * tangent;
+      A.noalias() += F_p * F_p.transpose();
+      b.noalias() += F * F_p;
+      cost += F * F;
+    }
+  }
+
+  NormalEquations reduced(const ChartMatrix& A, const ChartVector& b, double cost) const {
+    const int n = model_.free_size;
+    NormalEquations equations{cost, StepMatrix(n, n), StepVector(n)};
+    const auto free = model_.free_indices();
+    for (int i = 0; i < n; ++i) {
+      const int row = free[static_cast<std::size_t>(i)];
+      equations.b[i] = b[row];
+      for (int j = 0; j < n; ++j) equations.A(i, j) = A(row, free[static_cast<std::size_t>(j)]);
+    }
+    return equations;
+  }
+
+  const Samples& samples_;
+  const SurfaceModel& model_;
+  const SurfaceFitOptions& options_;
+  const std::optional<VertexPrior>& prior_;
+};
+
+double chi_square(const Samples& samples, const SurfaceModel& model, const SurfaceState& state,
+                  Distance distance) {
+  double chi2 = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples.robust[i] == 0.0) continue;
+    const double F = residual(distance, model, state, samples.q[i], samples.cov[i]).F;
+    chi2 += F * F;
+  }
+  return chi2;
+}
+
+}  // namespace
+
+double tukey_weight(double F) {
+  const double inside = 1.0 - std::min(F * F / (tukey_constant * tukey_constant), 1.0);
+  return inside * inside;
+}
+
+SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const SurfaceState& start,
+                       const SurfaceFitOptions& options, const std::optional<VertexPrior>& prior) {
+  const std::optional<VertexPrior> used = model.vertex_prior ? prior : std::nullopt;
+  SurfaceFit fit;
+  fit.model = model;
+  fit.state = start;
+  fit.prior = used;
+  const SurfaceProblem problem(samples, model, options, fit.prior);
+  LeastSquaresSummary summary = minimise(problem, fit.state, options.solver);
+  fit.A = std::move(summary.at_solution.A);
+  fit.cost = summary.at_solution.cost;
+  fit.iterations = summary.iterations;
+  fit.converged = summary.converged;
+  fit.chi2 = chi_square(samples, model, fit.state, options.distance);
+  return fit;
+}
+
+SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model,
+                       const std::vector<SurfaceState>& starts, const SurfaceFitOptions& options,
+                       const std::optional<VertexPrior>& prior) {
+  SurfaceFit best;
+  best.cost = std::numeric_limits<double>::infinity();
+  int iterations = 0;
+  for (const SurfaceState& start : starts) {
+    SurfaceFit fit = fit_surface(samples, model, start, options, prior);
+    iterations += fit.iterations;
+    if (fit.cost < best.cost) best = std::move(fit);
+  }
+  best.iterations = iterations;
+  return best;
+}
+
+FootPoints foot_points(const Samples& samples, const SurfaceFit& fit) {
+  constexpr double least_cosine = 0.15;
+  const std::optional<Vector3d>& axis = samples.observations->optical_axis;
+  FootPoints feet;
+  feet.x.reserve(samples.size());
+  feet.weight.reserve(samples.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Residual r = residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]);
+    double weight = samples.robust[i] > 0.0 ? 1.0 : 0.0;
+    if (axis) {
+      const Vector3d n = r.g.normalized();
+      const Vector3d from_camera = fit.state.c + fit.state.R * r.x - samples.viewpoint(i);
+      const Vector3d ray = from_camera.normalized();
+      const double depth = axis->dot(from_camera), cos_psi = axis->dot(ray);
+      const double facing = std::max(std::abs(n.dot(fit.state.R.transpose() * ray)), least_cosine);
+      weight *= depth * depth * cos_psi * std::abs(n.z()) / facing;  // fitting.md section 7
+    }
+    feet.x.push_back(r.x);
+    feet.weight.push_back(std::max(weight, 0.0));
+    sum += feet.weight.back();
+  }
+  for (double& weight : feet.weight) weight /= sum;
+  return feet;
+}
+
+VertexStart vertex_start(const Samples& samples, const SurfaceFit& fixed) {
+  const FootPoints feet = foot_points(samples, fixed);
+  Vector2d centroid = Vector2d::Zero();
+  for (std::size_t i = 0; i < feet.x.size(); ++i) centroid += feet.weight[i] * feet.x[i].head<2>();
+  double spread = 0.0;
+  for (std::size_t i = 0; i < feet.x.size(); ++i) {
+    spread += feet.weight[i] * (feet.x[i].head<2>() - centroid).squaredNorm();
+  }
+  const double size = 2.0 * std::sqrt(0.5 * spread);
+  const Vector3d kappa = k3(fixed.model, fixed.state.k);
+  const Vector3d centre = surface_point(centroid, kappa);
+  VertexStart start;
+  start.state = fixed.state;
+  start.state.c = fixed.state.c + fixed.state.R * centre;
+  start.state.R = turned_to(fixed.state.R, fixed.state.R * outward_normal(centre, kappa));
+  const double share =
+      0.25 / static_cast<double>(samples.size()) + 0.05 * 0.05;  // fitting.md section 3, step 4
+  start.prior = {start.state.c, start.state.R.leftCols<2>(), size * std::sqrt(share), size};
+  return start;
+}
+
+bool reevaluate_noise(Samples& samples, const SurfaceFit& fit) {
+  const auto& covariance_at = samples.observations->covariance_at;
+  if (!covariance_at) return false;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Residual r = residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]);
+    samples.cov[i] = covariance_at(i, samples.origin + fit.state.c + fit.state.R * r.x);
+  }
+  return true;
+}
+
+}  // namespace patchlab

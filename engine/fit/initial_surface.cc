@@ -1,0 +1,187 @@
+#include "engine/fit/initial_surface.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <cmath>
+
+namespace patchlab {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+Vector6 monomials(double x, double y) { return {1.0, x, y, 0.5 * x * x, x * y, 0.5 * y * y}; }
+
+// Weighted sums of one height field, in coordinates divided by `size` so that they are well scaled.
+struct HeightSums {
+  Matrix6 A = Matrix6::Zero();
+  Vector6 b = Vector6::Zero();
+  double size;
+
+  void add(const Vector3d& q, double weight) {
+    const Vector6 row = monomials(q.x() / size, q.y() / size);
+    A.noalias() += weight * row * row.transpose();
+    b.noalias() += weight * (q.z() / size) * row;
+  }
+  Vector6 solve() const {
+    Vector6 a = A.completeOrthogonalDecomposition().solve(b);
+    a[0] *= size;
+    a.tail<3>() /= size;
+    return a;
+  }
+};
+
+double extent(const Samples& samples) {
+  double sum = 0.0;
+  for (const Vector3d& q : samples.q) sum += q.squaredNorm();
+  return std::sqrt(sum / static_cast<double>(samples.size()));
+}
+
+Vector3d weighted_mean(const Samples& samples) {
+  Vector3d sum = Vector3d::Zero();
+  double total = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    sum += samples.robust[i] * samples.q[i];
+    total += samples.robust[i];
+  }
+  return sum / total;
+}
+
+double weight_along(const Matrix3d& cov, const Vector3d& normal) {
+  return 1.0 / std::max(normal.dot(cov * normal), 1e-12 * cov.trace() + 1e-300);
+}
+
+Vector6 fit_heights(const Samples& samples, const SurfaceState& frame) {
+  HeightSums sums{.size = extent(samples)};
+  const Vector3d normal = frame.R.col(2);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples.robust[i] == 0.0) continue;
+    sums.add(to_local(frame, samples.q[i]), samples.robust[i] * weight_along(samples.cov[i], normal));
+  }
+  return sums.solve();
+}
+
+SurfaceState reframed(const SurfaceState& frame, const Vector6& a) {
+  SurfaceState next = frame;
+  next.c = frame.c + a[0] * frame.R.col(2);
+  next.R = turned_to(frame.R, frame.R * Vector3d(-a[1], -a[2], 1.0).normalized());
+  return next;
+}
+
+// Axes along the eigenvectors of the shape operator, |k_x| <= |k_y|.
+SurfaceState principal(const SurfaceState& frame, const Vector6& a) {
+  const Matrix2d H = (Matrix2d() << a[3], a[4], a[4], a[5]).finished();
+  const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(H);
+  const int y = std::abs(eigen.eigenvalues()[1]) >= std::abs(eigen.eigenvalues()[0]) ? 1 : 0;
+  const Vector2d x_axis = eigen.eigenvectors().col(1 - y);
+  SurfaceState state = frame;
+  state.R.col(0) = (frame.R.leftCols<2>() * x_axis).normalized();
+  state.R.col(1) = frame.R.col(2).cross(state.R.col(0));
+  state.k = {eigen.eigenvalues()[1 - y], eigen.eigenvalues()[y]};
+  return state;
+}
+
+// |q|^2 = 2 m'q + s by linear least squares: a sphere's centre m, as a state with its apex over the mean.
+SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) {
+  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d b = Eigen::Vector4d::Zero();
+  const double size = extent(samples);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Eigen::Vector4d row = (samples.q[i] / size).homogeneous();
+    const double weight = samples.robust[i] * weight_along(samples.cov[i], near.R.col(2));
+    A.noalias() += weight * row * row.transpose();
+    b.noalias() += weight * (samples.q[i] / size).squaredNorm() * row;
+  }
+  const Eigen::Vector4d solution = A.completeOrthogonalDecomposition().solve(b);
+  const Vector3d centre = 0.5 * solution.head<3>() * size;
+  const double radius = std::sqrt(std::max(size * size * solution[3] + centre.squaredNorm(), 1e-300));
+  const Vector3d towards = (centre - weighted_mean(samples)).normalized();  // from the surface to the centre
+  const double side = towards.dot(near.R.col(2)) >= 0.0 ? 1.0 : -1.0;
+  SurfaceState state;
+  state.R = turned_to(near.R, side * towards);
+  state.k = {side / radius, 0.0};
+  state.c = centre - radius * towards;
+  return state;
+}
+
+SurfaceState quarter_turned(const SurfaceState& state) {
+  SurfaceState turned = state;
+  turned.R.col(0) = state.R.col(1);
+  turned.R.col(1) = -state.R.col(0);
+  turned.k = {state.k[1], state.k[0]};
+  return turned;
+}
+
+SurfaceState with_k(SurfaceState state, double k) {
+  state.k = {k, 0.0};
+  return state;
+}
+
+}  // namespace
+
+Matrix3d turned_to(const Matrix3d& R, const Vector3d& normal) {
+  return Eigen::Quaterniond::FromTwoVectors(R.col(2), normal).toRotationMatrix() * R;
+}
+
+SurfaceState initial_plane(const Samples& samples) {
+  const Vector3d mean = weighted_mean(samples);
+  Matrix3d scatter = Matrix3d::Zero();
+  double facing = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Vector3d away = samples.q[i] - mean;
+    scatter.noalias() += samples.robust[i] * away * away.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(scatter);
+  SurfaceState plane;
+  plane.c = mean;
+  plane.R.col(0) = eigen.eigenvectors().col(2);
+  plane.R.col(2) = eigen.eigenvectors().col(0);
+  for (std::size_t i = 0; i < samples.size(); ++i) facing += plane.R.col(2).dot(samples.viewpoint(i) - mean);
+  if (facing < 0.0) plane.R.col(2) *= -1.0;
+  plane.R.col(1) = plane.R.col(2).cross(plane.R.col(0));
+  return plane;
+}
+
+SurfaceState height_field(const Samples& samples, const SurfaceState& frame) {
+  SurfaceState turned = reframed(frame, fit_heights(samples, frame));
+  const Vector6 a = fit_heights(samples, turned);
+  turned.c += a[0] * turned.R.col(2);
+  return principal(turned, a);
+}
+
+Quadric quadric_through(const Samples& samples, const SurfaceState& frame,
+                        const std::vector<std::size_t>& points) {
+  HeightSums sums{.size = extent(samples)};
+  for (const std::size_t i : points) sums.add(to_local(frame, samples.q[i]), 1.0);
+  return {frame, sums.solve()};
+}
+
+double quadric_residual(const Quadric& quadric, const Samples& samples, std::size_t i) {
+  const Vector3d q = to_local(quadric.frame, samples.q[i]);
+  const Vector6& a = quadric.a;
+  const Vector3d g(-a[1] - a[3] * q.x() - a[4] * q.y(), -a[2] - a[4] * q.x() - a[5] * q.y(), 1.0);
+  const Vector3d g_world = quadric.frame.R * g;
+  return (q.z() - a.dot(monomials(q.x(), q.y()))) * std::sqrt(weight_along(samples.cov[i], g_world));
+}
+
+std::vector<SurfaceState> starts(const Samples& samples, const SurfaceModel& model,
+                                 const SurfaceState& quadratic) {
+  const double mean_curvature = 0.5 * quadratic.k.sum();
+  switch (model.kind) {
+    case ModelKind::plane:
+      return {with_k(quadratic, 0.0)};
+    case ModelKind::sphere:
+      return {with_k(quadratic, mean_curvature), algebraic_sphere(samples, quadratic)};
+    case ModelKind::circular_paraboloid:
+      return {with_k(quadratic, mean_curvature)};
+    case ModelKind::circular_cylinder:
+    case ModelKind::cylindric_paraboloid:
+      return {with_k(quadratic, quadratic.k[1]), with_k(quarter_turned(quadratic), quadratic.k[0])};
+    case ModelKind::paraboloid:
+      return {quadratic};
+  }
+  return {quadratic};
+}
+
+}  // namespace patchlab

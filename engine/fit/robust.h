@@ -1,0 +1,20 @@
+// A start that a sloppy lasso does not spoil, and the flagging of outliers (fitting.md section 3, step 10).
+#pragma once
+
+#include <cstdint>
+
+#include "engine/fit/fit_surface.h"
+
+namespace patchlab {
+
+// RANSAC of a quadric (9 points, 80 draws, truncated cost) over the plane of step 1; the robust weights
+// become 1 for its inliers and 0 for the rest. Seeded: the same points and seed give the same weights.
+void keep_quadric_inliers(Samples& samples, std::uint64_t seed);
+
+// Robust weights after a fit with Tukey's loss: 0 for points beyond 3.5 standard deviations (flagged, never
+// counted for bounds), Tukey's own for the rest.
+void flag_outliers(Samples& samples, const SurfaceFit& fit);
+
+inline constexpr double flag_limit = 3.5;  // standard deviations
+
+}  // namespace patchlab

@@ -1,0 +1,92 @@
+#include "engine/fit/samples.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <string>
+
+namespace patchlab {
+namespace {
+
+Error no_fit(std::string sentence) { return {ErrorCode::no_finite_fit, std::move(sentence)}; }
+
+Result<void> check_sample(const Observations& observations, std::size_t i) {
+  const std::string row = "Point " + std::to_string(i) + " (counted from 0): ";
+  if (!observations.points[i].allFinite()) return no_fit(row + "its position is not finite; remove it.");
+  const Eigen::Matrix3d& cov = observations.covariances[i];
+  if (!cov.allFinite()) return no_fit(row + "its covariance is not finite.");
+  const double size = cov.cwiseAbs().maxCoeff();
+  if ((cov - cov.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size) {
+    return no_fit(row + "its covariance is not symmetric.");
+  }
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cov, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  if (least < -1e-9 * cov.trace() || cov.trace() <= 0.0) {
+    return no_fit(
+        row + "its covariance is not positive semi-definite; check the noise model or the file's columns.");
+  }
+  return {};
+}
+
+// Spread of the points in units of their noise, largest first, and the extent itself.
+struct Spread {
+  Eigen::Vector3d against_noise;  // generalised eigenvalues of (sample covariance, mean covariance)
+  Eigen::Vector3d extent;         // m, standard deviations
+};
+
+Spread spread_of(const Samples& samples) {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero(), noise = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    scatter += samples.q[i] * samples.q[i].transpose();
+    noise += samples.cov[i];
+  }
+  scatter /= static_cast<double>(samples.size());
+  noise /= static_cast<double>(samples.size());
+  const double floor = 1e-12 * scatter.trace() + 1e-300;
+  noise.diagonal().array() += 1e-6 * noise.trace() + floor;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> against(scatter, noise,
+                                                                          Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> plain(scatter, Eigen::EigenvaluesOnly);
+  return {against.eigenvalues().reverse(), plain.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt()};
+}
+
+Result<void> check_spread(const Samples& samples) {
+  constexpr double least_spread = 9.0;  // fitting.md section 5: coincident e1 <= 5.4, collinear e2 <= 3.3
+  constexpr double least_aspect = 1e-3;
+  const Spread spread = spread_of(samples);
+  if (spread.extent[0] == 0.0 || spread.against_noise[0] < least_spread) {
+    return no_fit(
+        "The points coincide within their noise: they do not span a surface; select a larger region.");
+  }
+  if (spread.extent[1] < least_aspect * spread.extent[0] || spread.against_noise[1] < least_spread) {
+    return no_fit(
+        "The points lie on a line within their noise: they do not span a surface; select a wider region.");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Samples> make_samples(const Observations& observations, std::size_t least) {
+  const std::size_t n = observations.size();
+  if (n < least) {
+    return no_fit("Too few points: " + std::to_string(n) + " where this surface needs at least " +
+                  std::to_string(least) + "; select a larger region.");
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Result<void> good = check_sample(observations, i);
+    if (!good) return good.error();
+  }
+  Samples samples;
+  samples.observations = &observations;
+  for (const Eigen::Vector3d& point : observations.points) samples.origin += point;
+  samples.origin /= static_cast<double>(n);
+  samples.q.reserve(n);
+  for (const Eigen::Vector3d& point : observations.points) samples.q.push_back(point - samples.origin);
+  samples.cov = observations.covariances;
+  samples.robust.assign(n, 1.0);
+  const Result<void> good = check_spread(samples);
+  if (!good) return good.error();
+  return samples;
+}
+
+}  // namespace patchlab

@@ -1,0 +1,31 @@
+// The points of a fit as its inner loops read them: about their mean, with what each step adds to them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/fit/observation.h"
+
+namespace patchlab {
+
+struct Samples {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // m: mean of the points, added back at the end
+  std::vector<Eigen::Vector3d> q;                    // m, about origin
+  std::vector<Eigen::Matrix3d> cov;                  // m^2, as measured or re-evaluated at the foot points
+  std::vector<double> robust;                        // Tukey weight in [0, 1]; 1 where nothing is doubted
+  const Observations* observations = nullptr;        // outlives the samples
+
+  std::size_t size() const { return q.size(); }
+  Eigen::Vector3d viewpoint(std::size_t i) const {  // m, about origin
+    const Observations& o = *observations;
+    return (o.viewpoints.empty() ? o.viewpoint : o.viewpoints[i]) - origin;
+  }
+};
+
+// Checks of fitting.md section 5: at least `least` points, every covariance finite, symmetric and positive
+// semi-definite (named by its row), points that are neither coincident nor collinear within their noise.
+// no_finite_fit otherwise.
+Result<Samples> make_samples(const Observations& observations, std::size_t least);
+
+}  // namespace patchlab

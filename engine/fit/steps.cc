@@ -1,0 +1,219 @@
+#include "engine/fit/steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/fit/robust.h"
+#include "engine/fit/validate.h"
+
+namespace patchlab {
+namespace {
+
+template <class... Numbers>
+std::string line(const char* format, Numbers... numbers) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+std::string words(SurfaceType surface) {
+  std::string text(name(surface));
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+Result<void> check_options(const Workbench& work) {
+  const double gamma = work.containment;
+  if (!(gamma > 0.0 && gamma <= 1.0)) {
+    return Error{ErrorCode::usage, line("Containment must be in (0, 1], not %g.", gamma)};
+  }
+  if (work.bounds == BoundsMethod::paper && gamma == 1.0) {
+    return Error{
+        ErrorCode::usage,
+        "Containment 1 with the paper's bounds is infinite; choose a containment below 1 or the extent bounds."};
+  }
+  return {};
+}
+
+// The 2-jet over the centroid: every candidate resembles it, so the noise is re-evaluated on it before they
+// are fitted.
+SurfaceState quadratic_start(Workbench& work) {
+  Samples& samples = work.samples;
+  const SurfaceModel two_jet = fixed_centre(surface_model(ModelKind::paraboloid));
+  const SurfaceState start = height_field(samples, work.plane);
+  SurfaceFit fit = fit_surface(samples, two_jet, start, {});
+  for (int pass = 0; pass < 2 && reevaluate_noise(samples, fit); ++pass) {
+    fit = fit_surface(samples, two_jet, fit.state, {});
+  }
+  return std::isfinite(fit.cost) ? fit.state : start;
+}
+
+// One candidate: the best of its starts, a paraboloid's with the prior of its vertex.
+SurfaceFit fit_model(const Samples& samples, const SurfaceModel& model, const SurfaceState& quadratic) {
+  const std::vector<SurfaceState> first = starts(samples, model, quadratic);
+  if (!model.vertex_prior) return fit_surface(samples, model, first, {});
+  const SurfaceFit fixed = fit_surface(samples, fixed_centre(model), first, {});
+  const VertexStart vertex = vertex_start(samples, fixed);
+  SurfaceFit fit = fit_surface(samples, model, vertex.state, {}, vertex.prior);
+  fit.iterations += fixed.iterations;
+  return fit;
+}
+
+// Tukey's fit over all points, from the fit of the inliers.
+SurfaceFit fit_robustly(const Samples& all, const Samples& inliers, const SurfaceModel& model,
+                        const SurfaceState& quadratic) {
+  const SurfaceFit start = fit_model(inliers, model, quadratic);
+  SurfaceFitOptions tukey;
+  tukey.robust = true;
+  SurfaceFit fit = fit_surface(all, model, start.state, tukey, start.prior);
+  fit.iterations += start.iterations;
+  return fit;
+}
+
+Vector3d mean_viewpoint(const Samples& samples) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < samples.size(); ++i) sum += samples.viewpoint(i);
+  return samples.origin + sum / static_cast<double>(samples.size());
+}
+
+void bound(Workbench& work) {
+  const Apex apex = work.options.method == FitMethod::calibrated ? Apex::over_centroid : Apex::as_fitted;
+  work.patch =
+      bounded_patch(work.samples, work.surface, *work.type, work.moments, work.cov_joint, work.scale, apex);
+  const Boundary b = boundary(work.patch);
+  std::string sizes;
+  for (int i = 0; i < b.d.size(); ++i) sizes += line(i == 0 ? "%.4g" : ", %.4g", b.d[i]);
+  work.log.push_back("6-9. " + std::string(name(work.type->boundary)) + " with d = " + sizes + " m");
+}
+
+}  // namespace
+
+Result<Workbench> begin(const Observations& observations, const FitOptions& options) {
+  Workbench work;
+  work.options = options;
+  const bool paper = options.method == FitMethod::paper;
+  work.bounds = options.bounds.value_or(paper ? BoundsMethod::paper : BoundsMethod::extent);
+  work.containment = options.containment.value_or(work.bounds == BoundsMethod::paper ? 0.95 : 1.0);
+  const Result<void> sane = check_options(work);
+  if (!sane) return sane.error();
+  Result<Samples> samples = make_samples(observations, least_points(options.surface));
+  if (!samples) return samples.error();
+  work.samples = std::move(*samples);
+  return work;
+}
+
+void fit_plane(Workbench& work) {
+  if (work.options.robust) keep_quadric_inliers(work.samples, work.options.seed);
+  work.plane = initial_plane(work.samples);
+  const Vector3d n = work.plane.R.col(2);
+  work.log.push_back(line("1. plane by least squares: normal (%.4f, %.4f, %.4f)", n.x(), n.y(), n.z()));
+}
+
+void fit_surfaces(Workbench& work) {
+  const SurfaceState quadratic = quadratic_start(work);
+  const Samples inliers = work.samples;
+  if (work.options.robust) std::fill(work.samples.robust.begin(), work.samples.robust.end(), 1.0);
+  for (const ModelKind kind : candidate_models(work.options.surface, work.samples.size())) {
+    const SurfaceModel& model = surface_model(kind);
+    work.fits.push_back(work.options.robust ? fit_robustly(work.samples, inliers, model, quadratic)
+                                            : fit_model(work.samples, model, quadratic));
+    const SurfaceFit& fit = work.fits.back();
+    work.log.push_back("2. " + words(surface_type(fit)) +
+                       line(": chi-square %.2f after %d iterations, curvature (%.4g, %.4g) 1/m", fit.chi2,
+                            fit.iterations, fit.state.k[0], fit.state.k[1]));
+  }
+}
+
+void refine_type(Workbench& work) {
+  work.choice = choose(work.fits, work.samples.size());
+  work.surface = work.fits[work.choice.best];
+  SurfaceFitOptions options;
+  options.robust = work.options.robust;
+  for (int pass = 0; pass < 2 && reevaluate_noise(work.samples, work.surface); ++pass) {
+    const int before = work.surface.iterations;
+    work.surface =
+        fit_surface(work.samples, work.surface.model, work.surface.state, options, work.surface.prior);
+    work.surface.iterations += before;
+  }
+  if (options.robust) flag_outliers(work.samples, work.surface);
+  work.log.push_back("3. type: " + words(surface_type(work.surface)) + ", " +
+                     work.choice.candidates.front().reason);
+}
+
+void choose_boundary(Workbench& work) {
+  const SurfaceType surface = surface_type(work.surface);
+  BoundaryType boundary = default_boundary(surface);
+  if (surface == SurfaceType::plane) {
+    switch (work.options.boundary) {
+      case BoundaryRequest::circle:
+        boundary = BoundaryType::circle;
+        break;
+      case BoundaryRequest::rectangle:
+        boundary = BoundaryType::rectangle;
+        break;
+      case BoundaryRequest::convex_quad:
+        boundary = BoundaryType::convex_quad;
+        break;
+      case BoundaryRequest::ellipse:
+      case BoundaryRequest::automatic:
+        boundary = BoundaryType::ellipse;
+        break;
+    }
+  }
+  work.type = find_patch_type(surface, boundary);
+  work.scale =
+      work.bounds == BoundsMethod::extent ? extent_scale(work.containment) : paper_scale(work.containment);
+  work.log.push_back("4. boundary: " + std::string(name(boundary)) +
+                     line(", containment %.4g", work.containment));
+}
+
+void project_points(Workbench& work) {
+  work.feet = foot_points(work.samples, work.surface);
+  work.moments = moments(work.feet.x, work.feet.weight);
+  work.cov_joint = joint_covariance(work.samples, work.surface, work.feet, {});
+  work.log.push_back(line("5. %zu foot points", work.samples.size()));
+}
+
+void bound_cylinder(Workbench& work) {
+  if (work.type->boundary == BoundaryType::rectangle && work.type->curvature_size > 0) bound(work);
+}
+void bound_revolute(Workbench& work) {
+  if (work.type->boundary == BoundaryType::circle && work.type->curvature_size > 0) bound(work);
+}
+void bound_paraboloid(Workbench& work) {
+  if (work.type->boundary == BoundaryType::ellipse && work.type->curvature_size > 0) bound(work);
+}
+void bound_plane(Workbench& work) {
+  if (work.type->surface == SurfaceType::plane) bound(work);
+}
+
+Result<FitResult> conclude(Workbench& work) {
+  FitResult result;
+  result.patch = conventional(work.patch, mean_viewpoint(work.samples));
+  FitReport& report = result.report;
+  report.method = work.options.method;
+  report.bounds = work.bounds;
+  report.containment = work.containment;
+  report.robust = work.options.robust;
+  report.candidates = work.choice.candidates;
+  report.iterations = work.surface.iterations;
+  report.converged = work.surface.converged;
+  for (std::size_t i = 0; i < work.samples.size(); ++i) {
+    const Residual r = residual(Distance::exact, work.surface.model, work.surface.state, work.samples.q[i],
+                                work.samples.cov[i]);
+    report.residuals.push_back(r.F);
+    if (work.samples.robust[i] == 0.0) {
+      report.outliers.push_back(static_cast<std::uint32_t>(i));
+    } else {
+      report.chi2 += r.F * r.F;
+    }
+  }
+  report.points = work.samples.size() - report.outliers.size();
+  report.dof = static_cast<int>(report.points) - work.surface.model.effective_parameters;
+  validate_fit(work.samples, work.surface, work.feet, result.patch, work.options, report);
+  report.steps = std::move(work.log);
+  return result;
+}
+
+}  // namespace patchlab
