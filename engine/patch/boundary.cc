@@ -42,9 +42,22 @@ VertexJacobian J_vertex(const Boundary& boundary, const Vector2d& v, int i) {
   return J;
 }
 
+// Outward unit normal of the edge from vertex i to the next, zero where the edge has no length.
+Vector2d edge_normal(const std::array<Vector2d, 4>& v, int i) {
+  const Vector2d edge = v[static_cast<std::size_t>((i + 1) % 4)] - v[static_cast<std::size_t>(i % 4)];
+  return Vector2d(edge.y(), -edge.x()).normalized();
+}
+
+Vector2d polygon_outward(const std::array<Vector2d, 4>& v, int i, bool at_corner) {
+  const Vector2d own = edge_normal(v, i);
+  if (!at_corner && own != Vector2d::Zero()) return own;
+  return (own + edge_normal(v, i + 3) + (own == Vector2d::Zero() ? edge_normal(v, i + 1) : Vector2d::Zero()))
+      .normalized();
+}
+
 OutlinePoint round_outline_point(const Boundary& boundary, double s) {
   const Vector2d d = radii(boundary), direction(std::cos(2.0 * pi * s), std::sin(2.0 * pi * s));
-  OutlinePoint point{d.cwiseProduct(direction), {}};
+  OutlinePoint point{d.cwiseProduct(direction), {}, direction.cwiseQuotient(d).normalized()};
   if (boundary.type == BoundaryType::circle) {
     point.J_u_d = direction;
   } else {
@@ -72,11 +85,10 @@ double boundary_function(const Vector2d& u, const Boundary& boundary) {
   if (round(boundary)) return u.cwiseQuotient(radii(boundary)).squaredNorm() - 1.0;  // Eq. (17)
   const std::array<Vector2d, 4> v = vertices(boundary);
   double q = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vector2d edge = v[(i + 1) % 4] - v[i];
-    const double length = edge.norm();
-    if (length == 0.0) continue;
-    q = std::max(q, (u - v[i]).dot(Vector2d(edge.y(), -edge.x())) / length);  // Eqs. (19), (20)
+  for (int i = 0; i < 4; ++i) {
+    const Vector2d normal = edge_normal(v, i);
+    if (normal == Vector2d::Zero()) continue;
+    q = std::max(q, (u - v[static_cast<std::size_t>(i)]).dot(normal));  // Eqs. (19), (20)
   }
   return q;
 }
@@ -114,7 +126,8 @@ OutlinePoint outline_point(const Boundary& boundary, double s) {
   const Vector2d &from = v[static_cast<std::size_t>(i)], &to = v[static_cast<std::size_t>(j)];
   const double along = 4.0 * s - i;
   return {(1.0 - along) * from + along * to,
-          (1.0 - along) * J_vertex(boundary, from, i) + along * J_vertex(boundary, to, j)};
+          (1.0 - along) * J_vertex(boundary, from, i) + along * J_vertex(boundary, to, j),
+          polygon_outward(v, i, along == 0.0)};
 }
 
 Vector2d extent(const Boundary& boundary) {
