@@ -1,6 +1,6 @@
 # Files as data of the program.
 #   patchlab_embed(target NAMESPACE shaders HEADER viewer/render/embedded.h FILES a.vert b.frag ...)
-# adds to `target` a generated source that defines, for each file `a.vert`, the Embedded `a_vert` (viewer/embedded.h) that HEADER declares.
+# adds to `target` a generated source that defines, for each file `a.vert`, the Embedded `a_vert` (viewer/platform/embedded.h) that HEADER declares.
 #
 # Run as a script (cmake -P) it writes that source: -DOUT=... -DNAMESPACE=... -DHEADER=... -DFILES=a|b
 if(NOT CMAKE_SCRIPT_MODE_FILE)

@@ -1,7 +1,7 @@
 // The embedded fonts, put into ImGui's atlas.
 #pragma once
 
-#include "viewer/embedded.h"
+#include "viewer/platform/embedded.h"
 #include "viewer/platform/platform.h"
 
 namespace patchlab::viewer {

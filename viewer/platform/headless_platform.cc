@@ -1,4 +1,3 @@
-#include <GLFW/glfw3.h>
 #include <epoxy/egl.h>
 #include <imgui.h>
 
@@ -6,6 +5,7 @@
 #include <utility>
 
 #include "viewer/platform/gui_frame.h"
+#include "viewer/platform/key.h"
 #include "viewer/platform/make_platform.h"
 
 namespace patchlab::viewer {
@@ -14,28 +14,28 @@ namespace {
 constexpr float kFrameTime = 1.0f / 60.0f;  // s, of every frame: what is drawn never depends on the clock
 
 constexpr std::pair<ImGuiKey_, int> kKeyMap[] = {
-    {ImGuiKey_Tab, GLFW_KEY_TAB},
-    {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-    {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
-    {ImGuiKey_UpArrow, GLFW_KEY_UP},
-    {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
-    {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
-    {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
-    {ImGuiKey_Home, GLFW_KEY_HOME},
-    {ImGuiKey_End, GLFW_KEY_END},
-    {ImGuiKey_Insert, GLFW_KEY_INSERT},
-    {ImGuiKey_Delete, GLFW_KEY_DELETE},
-    {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
-    {ImGuiKey_Space, GLFW_KEY_SPACE},
-    {ImGuiKey_Enter, GLFW_KEY_ENTER},
-    {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-    {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
-    {ImGuiKey_A, GLFW_KEY_A},
-    {ImGuiKey_C, GLFW_KEY_C},
-    {ImGuiKey_V, GLFW_KEY_V},
-    {ImGuiKey_X, GLFW_KEY_X},
-    {ImGuiKey_Y, GLFW_KEY_Y},
-    {ImGuiKey_Z, GLFW_KEY_Z},
+    {ImGuiKey_Tab, key::tab},
+    {ImGuiKey_LeftArrow, key::left},
+    {ImGuiKey_RightArrow, key::right},
+    {ImGuiKey_UpArrow, key::up},
+    {ImGuiKey_DownArrow, key::down},
+    {ImGuiKey_PageUp, key::page_up},
+    {ImGuiKey_PageDown, key::page_down},
+    {ImGuiKey_Home, key::home},
+    {ImGuiKey_End, key::end},
+    {ImGuiKey_Insert, key::insert},
+    {ImGuiKey_Delete, key::del},
+    {ImGuiKey_Backspace, key::backspace},
+    {ImGuiKey_Space, ' '},
+    {ImGuiKey_Enter, key::enter},
+    {ImGuiKey_Escape, key::escape},
+    {ImGuiKey_KeyPadEnter, key::pad_enter},
+    {ImGuiKey_A, 'A'},
+    {ImGuiKey_C, 'C'},
+    {ImGuiKey_V, 'V'},
+    {ImGuiKey_X, 'X'},
+    {ImGuiKey_Y, 'Y'},
+    {ImGuiKey_Z, 'Z'},
 };
 
 // An OpenGL 3.3 core context without a window or a display. EGL's surfaceless display is one for the whole
@@ -85,7 +85,7 @@ class HeadlessPlatform : public Platform {
         height_(options.height),
         frame_(options.scale > 0.0f ? options.scale : 1.0f) {
     ImGuiIO& io = ImGui::GetIO();
-    for (const auto& [key, code] : kKeyMap) io.KeyMap[key] = code;
+    for (const auto& [meaning, code] : kKeyMap) io.KeyMap[meaning] = code;
   }
 
   bool should_close() const override { return closing_; }
@@ -114,7 +114,7 @@ class HeadlessPlatform : public Platform {
   std::string gl_renderer() const override { return gl_renderer_name(); }
 
  private:
-  bool down(int key) const { return input_.keys.contains(key); }
+  bool down(int code) const { return input_.keys.contains(code); }
 
   void put_input() {
     ImGuiIO& io = ImGui::GetIO();
@@ -123,10 +123,10 @@ class HeadlessPlatform : public Platform {
     std::copy(input_.buttons.begin(), input_.buttons.end(), io.MouseDown);
     io.MouseWheel = std::exchange(input_.wheel, 0.0f);
     std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
-    for (const int key : input_.keys) io.KeysDown[key] = true;
-    io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
-    io.KeyShift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
-    io.KeyAlt = down(GLFW_KEY_LEFT_ALT) || down(GLFW_KEY_RIGHT_ALT);
+    for (const int code : input_.keys) io.KeysDown[code] = true;
+    io.KeyCtrl = down(key::left_control) || down(key::right_control);
+    io.KeyShift = down(key::left_shift) || down(key::right_shift);
+    io.KeyAlt = down(key::left_alt) || down(key::right_alt);
     io.AddInputCharactersUTF8(std::exchange(input_.text, {}).c_str());
   }
 

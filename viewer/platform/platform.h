@@ -53,8 +53,8 @@ struct Input {
   float mouse_x = -1.0f, mouse_y = -1.0f;  // framebuffer px; negative: outside
   std::array<bool, 3> buttons{};           // left, right, middle
   float wheel = 0.0f;                      // notches, up positive
-  std::set<int> keys;  // GLFW_KEY_* codes, which index ImGuiIO::KeysDown on every platform
-  std::string text;    // UTF-8
+  std::set<int> keys;                      // codes of key.h, in [0, 512)
+  std::string text;                        // UTF-8
 };
 
 class Platform {

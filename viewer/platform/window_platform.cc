@@ -5,10 +5,25 @@
 #include <algorithm>
 
 #include "viewer/platform/gui_frame.h"
+#include "viewer/platform/key.h"
 #include "viewer/platform/make_platform.h"
 
 namespace patchlab::viewer {
 namespace {
+
+// Keys have GLFW's codes.
+static_assert(key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER && key::tab == GLFW_KEY_TAB &&
+              key::backspace == GLFW_KEY_BACKSPACE && key::insert == GLFW_KEY_INSERT &&
+              key::del == GLFW_KEY_DELETE);
+static_assert(key::right == GLFW_KEY_RIGHT && key::left == GLFW_KEY_LEFT && key::down == GLFW_KEY_DOWN &&
+              key::up == GLFW_KEY_UP && key::page_up == GLFW_KEY_PAGE_UP &&
+              key::page_down == GLFW_KEY_PAGE_DOWN && key::home == GLFW_KEY_HOME && key::end == GLFW_KEY_END);
+static_assert(key::f1 == GLFW_KEY_F1 && key::f5 == GLFW_KEY_F5 && key::f12 == GLFW_KEY_F12 &&
+              key::pad_0 == GLFW_KEY_KP_0 && key::pad_subtract == GLFW_KEY_KP_SUBTRACT &&
+              key::pad_add == GLFW_KEY_KP_ADD && key::pad_enter == GLFW_KEY_KP_ENTER);
+static_assert(key::left_shift == GLFW_KEY_LEFT_SHIFT && key::left_control == GLFW_KEY_LEFT_CONTROL &&
+              key::left_alt == GLFW_KEY_LEFT_ALT && key::right_shift == GLFW_KEY_RIGHT_SHIFT &&
+              key::right_control == GLFW_KEY_RIGHT_CONTROL && key::right_alt == GLFW_KEY_RIGHT_ALT);
 
 std::string glfw_reason() {
   const char* reason = nullptr;

@@ -1,7 +1,7 @@
 // The files of shaders/, embedded at build time.
 #pragma once
 
-#include "viewer/embedded.h"
+#include "viewer/platform/embedded.h"
 
 namespace patchlab::viewer::shaders {
 

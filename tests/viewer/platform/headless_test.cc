@@ -1,4 +1,3 @@
-#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 
