@@ -105,41 +105,55 @@ T circle(const T& v_x, const T& v_y, double factor, bool larger) {
   return root<T>(larger ? (v_x > v_y ? v_x : v_y) : T(0.5 * (v_x + v_y)), factor);
 }
 
-// Step 9: principal variances of a plane's points and the turn to their axes, Eqs. (30), (32).
 template <class T>
-void place_plane(Placed<T>& placed, const Moments<T>& m, const PatchTypeRow& type,
-                 const BoundaryScale& scale) {
-  using std::sqrt;
-  placed.c = {m.mean[0], m.mean[1], T(0.0)};
-  const T alpha = m.about(placed.c, placed.x, placed.x), phi = m.about(placed.c, placed.y, placed.y);
-  const T beta = T(2.0) * m.about(placed.c, placed.x, placed.y);
-  if (type.boundary == BoundaryType::circle) {
-    const T difference = sqrt(T(beta * beta + (alpha - phi) * (alpha - phi)));
-    const T larger = T(0.5) * (alpha + phi + difference), smaller = T(0.5) * (alpha + phi - difference);
-    placed.d[0] = circle<T>(larger, smaller, scale.plane_circle, scale.larger_axis);
-    return;
-  }
-  const T difference = sqrt(T(beta * beta + (alpha - phi) * (alpha - phi) + T(1e-300)));
-  const double factor = type.boundary == BoundaryType::ellipse ? scale.plane_ellipse : scale.plane_rectangle;
-  placed.d[0] = root<T>(T(0.5) * (alpha + phi + difference), factor);
-  placed.d[1] = root<T>(T(0.5) * (alpha + phi - difference), factor);
-  using std::atan2;
+void turn_about_z(Placed<T>& placed, const T& theta) {
   using std::cos;
   using std::sin;
-  const T theta = T(0.5) * atan2(beta, T(alpha - phi));  // Eq. (32)
   const T c = cos(theta), s = sin(theta);
   const Vector3<T> x = placed.x, y = placed.y;
   placed.x = scaled<T>(x, c) + scaled<T>(y, s);
   placed.y = scaled<T>(y, c) - scaled<T>(x, s);
 }
 
+// Step 9: principal variances of a plane's points and the turn to their axes, Eqs. (30), (32).
+template <class T>
+void place_plane(Placed<T>& placed, const Moments<T>& m, const PatchTypeRow& type,
+                 const BoundaryScale& scale) {
+  using std::atan2;
+  using std::sqrt;
+  const T alpha = m.about(placed.c, placed.x, placed.x), phi = m.about(placed.c, placed.y, placed.y);
+  const T beta = T(2.0) * m.about(placed.c, placed.x, placed.y);
+  const T difference = sqrt(T(beta * beta + (alpha - phi) * (alpha - phi) + T(1e-300)));
+  const T larger = T(0.5) * (alpha + phi + difference), smaller = T(0.5) * (alpha + phi - difference);
+  if (type.boundary == BoundaryType::circle) {
+    placed.d[0] = scale.larger_axis ? root<T>(larger, scale.plane_circle)
+                                    : root<T>(T(0.5) * (alpha + phi), scale.plane_circle);
+    return;
+  }
+  const double factor = type.boundary == BoundaryType::ellipse ? scale.plane_ellipse : scale.plane_rectangle;
+  placed.d = {root<T>(larger, factor), root<T>(smaller, factor)};
+  turn_about_z<T>(placed, T(T(0.5) * atan2(beta, T(alpha - phi))));  // Eq. (32)
+}
+
+template <class T>
+void place_along(Placed<T>& placed, const Moments<T>& m, const BoundaryScale& scale, double angle) {
+  turn_about_z<T>(placed, T(angle));
+  placed.d = {root<T>(m.about(placed.c, placed.x, placed.x), scale.plane_rectangle),
+              root<T>(m.about(placed.c, placed.y, placed.y), scale.plane_rectangle)};
+}
+
 template <class T>
 Placed<T> place(const T& kappa, const Moments<T>& m, const PatchTypeRow& type, const BoundaryScale& scale,
-                Apex apex) {
+                Apex apex, const std::optional<PlaneDirection>& direction) {
   Placed<T> placed = as_fitted<T>();
   const bool cylinder = type.surface == SurfaceType::circular_cylinder;
   if (type.surface == SurfaceType::plane) {
-    place_plane<T>(placed, m, type, scale);
+    placed.c = {m.mean[0], m.mean[1], T(0.0)};
+    if (direction) {
+      place_along<T>(placed, m, scale, direction->angle);
+    } else {
+      place_plane<T>(placed, m, type, scale);
+    }
     return placed;
   }
   if (apex == Apex::over_centroid && (cylinder || type.surface == SurfaceType::sphere)) {
@@ -235,12 +249,13 @@ BoundaryScale paper_scale(double containment) {
 
 Patch bounded_patch(const Samples& samples, const SurfaceFit& fit, const PatchTypeRow& type,
                     const MomentVector& moments, const JointMatrix& cov_joint, const BoundaryScale& scale,
-                    Apex apex) {
+                    Apex apex, const std::optional<PlaneDirection>& direction) {
   const JointState state = seeded(fit, moments);
-  Placed<Dual> placed = place<Dual>(state.kappa, unpack<Dual>(state.moments), type, scale, apex);
+  Placed<Dual> placed = place<Dual>(state.kappa, unpack<Dual>(state.moments), type, scale, apex, direction);
   carry_along(placed, state.w, state.t);
   const auto J = J_local(placed, type);
-  const PatchMatrix cov_local = J * cov_joint * J.transpose();
+  PatchMatrix cov_local = J * cov_joint * J.transpose();
+  if (direction) cov_local(type.rotation_at() + 2, type.rotation_at() + 2) += direction->variance;
   Boundary bound{type.boundary, BoundaryVector(type.boundary_size)};
   for (int i = 0; i < type.boundary_size; ++i) bound.d[i] = placed.d[i].value();
   const Matrix3d axes = (Matrix3d() << value(placed.x), value(placed.y), value(placed.z)).finished();

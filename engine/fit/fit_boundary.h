@@ -5,6 +5,8 @@
 // and differentiated automatically; the covariance follows by the chain rule (fitting.md section 1.3).
 #pragma once
 
+#include <optional>
+
 #include "engine/base/result.h"
 #include "engine/fit/moments.h"
 #include "engine/patch/patch.h"
@@ -29,11 +31,17 @@ enum class Apex {
   as_fitted,      // the paper's: the frame comes with the surface
 };
 
+// A direction in the plane known from elsewhere than the moments.
+struct PlaneDirection {
+  double angle;     // rad, of the patch's x axis in the frame of the fit
+  double variance;  // rad^2
+};
+
 // The bounded patch of a surface fit. The world frame of `fit` is about samples.origin; the patch is in the
 // frame of the points. Covariances included. `type` has the fit's surface (elliptic and hyperbolic by the
 // signs of k).
 Patch bounded_patch(const Samples& samples, const SurfaceFit& fit, const PatchTypeRow& type,
                     const MomentVector& moments, const JointMatrix& cov_joint, const BoundaryScale& scale,
-                    Apex apex);
+                    Apex apex, const std::optional<PlaneDirection>& direction = std::nullopt);
 
 }  // namespace patchlab

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/fit/plane_outline.h"
 #include "engine/fit/robust.h"
 #include "engine/fit/validate.h"
 
@@ -77,14 +78,18 @@ Vector3d mean_viewpoint(const Samples& samples) {
   return samples.origin + sum / static_cast<double>(samples.size());
 }
 
-void bound(Workbench& work) {
-  const Apex apex = work.options.method == FitMethod::calibrated ? Apex::over_centroid : Apex::as_fitted;
-  work.patch =
-      bounded_patch(work.samples, work.surface, *work.type, work.moments, work.cov_joint, work.scale, apex);
-  const Boundary b = boundary(work.patch);
+void log_bound(Workbench& work) {
   std::string sizes;
+  const Boundary b = boundary(work.patch);
   for (int i = 0; i < b.d.size(); ++i) sizes += line(i == 0 ? "%.4g" : ", %.4g", b.d[i]);
-  work.log.push_back("6-9. " + std::string(name(work.type->boundary)) + " with d = " + sizes + " m");
+  work.log.push_back("6-9. " + std::string(name(work.type->boundary)) + " with d = " + sizes);
+}
+
+void bound(Workbench& work, const std::optional<PlaneDirection>& direction = std::nullopt) {
+  const Apex apex = work.options.method == FitMethod::calibrated ? Apex::over_centroid : Apex::as_fitted;
+  work.patch = bounded_patch(work.samples, work.surface, *work.type, work.moments, work.cov_joint, work.scale,
+                             apex, direction);
+  log_bound(work);
 }
 
 }  // namespace
@@ -185,7 +190,16 @@ void bound_paraboloid(Workbench& work) {
   if (work.type->boundary == BoundaryType::ellipse && work.type->curvature_size > 0) bound(work);
 }
 void bound_plane(Workbench& work) {
-  if (work.type->surface == SurfaceType::plane) bound(work);
+  if (work.type->surface != SurfaceType::plane) return;
+  const bool extent = work.bounds == BoundsMethod::extent;
+  if (work.type->boundary == BoundaryType::convex_quad && extent) {
+    work.patch = quad_patch(work.samples, work.surface, work.feet, work.containment);
+    log_bound(work);
+  } else if (work.type->boundary == BoundaryType::rectangle && extent) {
+    bound(work, soft_direction(work.samples, work.surface, work.feet, work.moments));
+  } else {
+    bound(work);
+  }
 }
 
 Result<FitResult> conclude(Workbench& work) {

@@ -1,0 +1,20 @@
+// Step 9 where moments do not serve: the convex quad, and the direction of a nearly square rectangle.
+#pragma once
+
+#include <optional>
+
+#include "engine/fit/fit_boundary.h"
+#include "engine/fit/soft_edge.h"
+
+namespace patchlab {
+
+// The convex quad about a plane's foot points, each half-diagonal times sqrt(Gamma), with the covariance of
+// all eleven parameters: the edges' own by their likelihood, the plane's by its fit.
+Patch quad_patch(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet, double containment);
+
+// The direction of a rectangle's longer side in the frame of the fit, where its principal variances are so
+// alike (axes within a ratio of 1.2) that the angle of the moments (32) says nothing; absent otherwise.
+std::optional<PlaneDirection> soft_direction(const Samples& samples, const SurfaceFit& fit,
+                                             const FootPoints& feet, const MomentVector& moments);
+
+}  // namespace patchlab
