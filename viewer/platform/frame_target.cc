@@ -2,12 +2,8 @@
 
 #include <epoxy/gl.h>
 
-#include <algorithm>
-
 namespace patchlab::viewer {
 namespace {
-
-constexpr GLint kSamples = 4;
 
 GLuint renderbuffer(GLenum format, GLenum attachment, int width, int height, int samples) {
   GLuint name = 0;
@@ -50,12 +46,10 @@ void FrameTarget::release(Buffer& buffer) {
 }
 
 void FrameTarget::allocate() {
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_SAMPLES, &most);
   release(drawn_);
   release(resolved_);
-  drawn_ = make(width_, height_, std::min(kSamples, most));
-  resolved_ = make(width_, height_, 0);
+  drawn_ = make(width_, height_, samples_);
+  if (samples_ > 0) resolved_ = make(width_, height_, 0);
 }
 
 void FrameTarget::begin(int width, int height) {
@@ -73,17 +67,17 @@ void FrameTarget::begin(int width, int height) {
 }
 
 void FrameTarget::resolve() {
-  copy(drawn_.framebuffer, resolved_.framebuffer, width_, height_);
-  glBindFramebuffer(GL_FRAMEBUFFER, resolved_.framebuffer);
+  if (samples_ > 0) copy(drawn_.framebuffer, resolved_.framebuffer, width_, height_);
+  glBindFramebuffer(GL_FRAMEBUFFER, plain().framebuffer);
 }
 
-void FrameTarget::present() const { copy(resolved_.framebuffer, 0, width_, height_); }
+void FrameTarget::present() const { copy(plain().framebuffer, 0, width_, height_); }
 
 Image FrameTarget::read() const {
   Image image{width_, height_, {}};
   const std::size_t row = 3 * static_cast<std::size_t>(width_);
   std::vector<std::uint8_t> upwards(row * static_cast<std::size_t>(height_));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.framebuffer);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, plain().framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, upwards.data());
   image.rgb.reserve(upwards.size());

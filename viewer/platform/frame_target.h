@@ -1,4 +1,5 @@
-// What a frame is drawn into: a multisampled framebuffer with depth, and the plain one it is resolved to.
+// What a frame is drawn into: a framebuffer with depth, and where it is multisampled the plain one it is
+// resolved to.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +10,12 @@ namespace patchlab::viewer {
 
 class FrameTarget {
  public:
-  FrameTarget() = default;
+  explicit FrameTarget(int samples) : samples_(samples) {}
   FrameTarget(const FrameTarget&) = delete;
   FrameTarget& operator=(const FrameTarget&) = delete;
   ~FrameTarget();
 
-  void begin(int width, int height);  // makes or remakes the buffers, clears and binds the multisampled one
+  void begin(int width, int height);  // makes or remakes the buffers, clears and binds the one to draw into
   void resolve();                     // binds the plain one, holding what was drawn
   void present() const;               // copies it to the window's framebuffer
   Image read() const;
@@ -27,6 +28,9 @@ class FrameTarget {
   static Buffer make(int width, int height, int samples);
   static void release(Buffer& buffer);
 
+  const Buffer& plain() const { return samples_ > 0 ? resolved_ : drawn_; }
+
+  int samples_;
   int width_ = 0, height_ = 0;
   Buffer drawn_, resolved_;
 };

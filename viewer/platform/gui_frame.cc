@@ -4,9 +4,26 @@
 #include <epoxy/gl.h>
 #include <imgui.h>
 
+#include <algorithm>
+
+#include "viewer/platform/software_gl.h"
+
 namespace patchlab::viewer {
 
-GuiFrame::GuiFrame(float scale) : scale_(scale) {
+namespace {
+
+constexpr GLint kSamples = 4;
+
+int possible_samples(int wanted) {
+  if (wanted < 0) wanted = is_software_gl() ? 0 : kSamples;
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  return std::min(wanted, most);
+}
+
+}  // namespace
+
+GuiFrame::GuiFrame(float scale, int samples) : target_(possible_samples(samples)), scale_(scale) {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;

@@ -9,7 +9,7 @@ namespace patchlab::viewer {
 
 class GuiFrame {
  public:
-  explicit GuiFrame(float scale);
+  GuiFrame(float scale, int samples);  // samples as in PlatformOptions
   GuiFrame(const GuiFrame&) = delete;
   GuiFrame& operator=(const GuiFrame&) = delete;
   ~GuiFrame();

@@ -83,7 +83,7 @@ class HeadlessPlatform : public Platform {
       : context_(std::move(context)),
         width_(options.width),
         height_(options.height),
-        frame_(options.scale > 0.0f ? options.scale : 1.0f) {
+        frame_(options.scale > 0.0f ? options.scale : 1.0f, options.samples) {
     ImGuiIO& io = ImGui::GetIO();
     for (const auto& [meaning, code] : kKeyMap) io.KeyMap[meaning] = code;
   }

@@ -27,6 +27,8 @@ struct PlatformOptions {
   int width = 1440, height = 900;  // px
   bool headless = false;
   float scale = 0.0f;  // UI scale; 0: from the monitor (1 where headless)
+  int samples =
+      -1;  // of antialiasing; -1: 4, none where OpenGL is software (it takes three times as long there)
 };
 
 struct Image {

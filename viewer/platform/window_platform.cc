@@ -76,7 +76,8 @@ float monitor_scale(GLFWwindow* window) {
 class WindowPlatform : public Platform {
  public:
   WindowPlatform(std::unique_ptr<Window> window, const PlatformOptions& options)
-      : window_(std::move(window)), frame_(options.scale > 0.0f ? options.scale : monitor_scale(handle())) {
+      : window_(std::move(window)),
+        frame_(options.scale > 0.0f ? options.scale : monitor_scale(handle()), options.samples) {
     glfwSetWindowUserPointer(handle(), this);
     glfwSetDropCallback(handle(), &WindowPlatform::drop);
     ImGui_ImplGlfw_InitForOpenGL(handle(), true);

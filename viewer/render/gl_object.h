@@ -42,6 +42,22 @@ struct VertexArrayKind {
   }
   static void drop(GLuint name) { glDeleteVertexArrays(1, &name); }
 };
+struct TextureKind {
+  static GLuint make() {
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    return name;
+  }
+  static void drop(GLuint name) { glDeleteTextures(1, &name); }
+};
+struct FramebufferKind {
+  static GLuint make() {
+    GLuint name = 0;
+    glGenFramebuffers(1, &name);
+    return name;
+  }
+  static void drop(GLuint name) { glDeleteFramebuffers(1, &name); }
+};
 struct ProgramKind {
   static GLuint make() { return glCreateProgram(); }
   static void drop(GLuint name) { glDeleteProgram(name); }

@@ -1,6 +1,5 @@
 #include "viewer/render/point_pass.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace patchlab::viewer {
@@ -23,11 +22,6 @@ Result<PointPass> PointPass::create() {
   Result<Program> program = Program::link(shaders::points_vert, shaders::points_frag);
   if (!program) return program.error();
   return PointPass(std::move(*program));
-}
-
-bool PointPass::complete(const PointsItem& item) {
-  return item.positions && item.colours && !item.positions->empty() &&
-         item.positions->size() == item.colours->size();
 }
 
 PointPass::Positions PointPass::upload(const std::vector<Eigen::Vector3f>& positions) {
@@ -58,25 +52,24 @@ void PointPass::prepare(const std::vector<PointsItem>& items, Box& box) {
 void PointPass::bind(const PointsItem& item) {
   glBindVertexArray(arrays_.name());
   glBindBuffer(GL_ARRAY_BUFFER, resident(item).buffer.name());
-  attribute(0, 3, GL_FLOAT, sizeof(Eigen::Vector3f), 0);
+  attribute(0, 3, GL_FLOAT, item.step * sizeof(Eigen::Vector3f), 0);
   glBindBuffer(GL_ARRAY_BUFFER, colours_.get(item.colours, upload_colours).name());
-  attribute(1, 4, GL_UNSIGNED_BYTE, sizeof(Rgba8), 0);
+  attribute(1, 4, GL_UNSIGNED_BYTE, item.step * sizeof(Rgba8), 0);
 }
 
-void PointPass::draw(const std::vector<PointsItem>& items, const View& view,
-                     const Eigen::Vector3f& background) {
+void PointPass::draw(const std::vector<PointsItem>& items, const View& view, const PointFade& fade) {
   program_.use();
   set_view(program_, view);
-  const float depth_of_fade = std::max(view.farthest - view.nearest, view.height);
-  program_.set("depth_cue", Eigen::Vector2f(view.nearest, view.nearest + depth_of_fade));
-  program_.set("background", background);
+  program_.set("fade_depths", Eigen::Vector2f(fade.nearest, fade.nearest + fade.depth));
+  program_.set("farthest_fade", PointFade::kFarthest);
+  program_.set("background", fade.background);
   glEnable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   for (const PointsItem& item : items) {
     if (!complete(item)) continue;
     program_.set("size", item.size);
     bind(item);
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(item.positions->size()));
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>((item.positions->size() - 1) / item.step + 1));
   }
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   positions_.drop_unheld();

@@ -1,4 +1,4 @@
-// Draws points as disks.
+// Draws points as disks by OpenGL, antialiased where the framebuffer is multisampled.
 #pragma once
 
 #include "viewer/render/resident_cache.h"
@@ -13,7 +13,7 @@ class PointPass {
 
   // Grows `box` by the items; what they need is on the GPU then.
   void prepare(const std::vector<PointsItem>& items, Box& box);
-  void draw(const std::vector<PointsItem>& items, const View& view, const Eigen::Vector3f& background);
+  void draw(const std::vector<PointsItem>& items, const View& view, const PointFade& fade);
 
  private:
   struct Positions {
@@ -21,7 +21,6 @@ class PointPass {
     Box box;
   };
   explicit PointPass(Program program) : program_(std::move(program)) {}
-  static bool complete(const PointsItem& item);
   static Positions upload(const std::vector<Eigen::Vector3f>& positions);
   const Positions& resident(const PointsItem& item);
   void bind(const PointsItem& item);

@@ -1,8 +1,10 @@
 #include "viewer/render/renderer.h"
 
+#include "viewer/platform/software_gl.h"
 #include "viewer/render/line_pass.h"
 #include "viewer/render/mesh_pass.h"
 #include "viewer/render/point_pass.h"
+#include "viewer/render/splat_pass.h"
 
 namespace patchlab::viewer {
 namespace {
@@ -19,6 +21,7 @@ void begin(const Viewport& viewport) {
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LEQUAL);
+  glEnable(GL_DEPTH_TEST);
   glClear(GL_DEPTH_BUFFER_BIT);
 }
 
@@ -34,9 +37,18 @@ void end() {
 struct Renderer::State {
   Program background;
   PointPass points;
+  SplatPass splats;
   MeshPass meshes;
   LinePass lines;
   GlVertexArray no_arrays;
+  bool software = is_software_gl();
+
+  // Splats cannot be copied into a multisampled framebuffer.
+  bool by_processor() const {
+    GLint samples = 0;
+    glGetIntegerv(GL_SAMPLES, &samples);
+    return software && samples == 0;
+  }
 
   void draw_background(const Scene& scene) const {
     glDisable(GL_DEPTH_TEST);
@@ -64,22 +76,30 @@ Result<Renderer> Renderer::create() {
   Result<LinePass> lines = LinePass::create();
   if (!lines) return lines.error();
   return Renderer(std::make_unique<State>(
-      State{std::move(*background), std::move(*points), std::move(*meshes), std::move(*lines), {}}));
+      State{std::move(*background), std::move(*points), {}, std::move(*meshes), std::move(*lines), {}}));
 }
 
 void Renderer::draw(const Scene& scene, const ViewCamera& camera, const Viewport& viewport) {
   if (viewport.width <= 0 || viewport.height <= 0) return;
+  State& state = *state_;
+  const bool by_processor = state.by_processor();
   Box box;
-  state_->points.prepare(scene.points, box);
-  state_->meshes.prepare(scene.meshes, box);
+  if (by_processor) state.splats.prepare(scene.points, box);
+  if (!by_processor) state.points.prepare(scene.points, box);
+  state.meshes.prepare(scene.meshes, box);
   LinePass::grow(box, scene.lines);
   const View view = make_view(camera, viewport, scene.origin, box);
+  const PointFade fade = point_fade(view, scene);
 
   begin(viewport);
-  state_->draw_background(scene);
-  state_->points.draw(scene.points, view, 0.5f * (rgb(scene.background_top) + rgb(scene.background_bottom)));
-  state_->meshes.draw(scene.meshes, view);
-  state_->lines.draw(scene.lines, view);
+  if (by_processor) {
+    state.splats.draw(scene, view, fade);
+  } else {
+    state.draw_background(scene);
+    state.points.draw(scene.points, view, fade);
+  }
+  state.meshes.draw(scene.meshes, view);
+  state.lines.draw(scene.lines, view);
   end();
 }
 

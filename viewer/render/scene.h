@@ -21,7 +21,14 @@ struct PointsItem {
   Shared<Eigen::Vector3f> positions;  // NaN positions are skipped
   Shared<Rgba8> colours;              // one a point; alpha: 0 leaves it out, between fades to the background
   float size = 2.0f;                  // px
+  std::size_t step = 1;  // draws every step-th point only: a prime, while the camera moves over a large scan
 };
+
+// Whether there is something to draw: as many colours as positions, and at least one.
+inline bool complete(const PointsItem& item) {
+  return item.positions && item.colours && !item.positions->empty() && item.step > 0 &&
+         item.positions->size() == item.colours->size();
+}
 
 struct MeshVertex {
   Eigen::Vector3f position;

@@ -58,4 +58,13 @@ void set_view(const Program& program, const View& view) {
   program.set("view_from_local", view.view_from_local);
 }
 
+PointFade point_fade(const View& view, const Scene& scene) {
+  PointFade fade;
+  for (std::size_t k = 0; k < 3; ++k)
+    fade.background[static_cast<int>(k)] = 0.5f * (scene.background_top[k] + scene.background_bottom[k]);
+  fade.nearest = view.nearest;
+  fade.depth = std::max(view.farthest - view.nearest, view.height);
+  return fade;
+}
+
 }  // namespace patchlab::viewer

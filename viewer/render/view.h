@@ -21,12 +21,21 @@ struct View {
   Viewport viewport;
 };
 
-// `local` is the box of all that is drawn; the clip planes are put close around it, near never before the
-// camera's.
+// `local` is the box of all that is drawn; the clip planes are put close around it, but never before the
+// camera's near.
 View make_view(const ViewCamera& camera, const Viewport& viewport, const Eigen::Vector3d& origin,
                const Box& local);
 
 // Sets the uniforms clip_from_view and view_from_local of the program in use.
 void set_view(const Program& program, const View& view);
+
+// How points fade into the background: by kFarthestFade where they are `depth` behind the nearest thing, or
+// more.
+struct PointFade {
+  static constexpr float kFarthest = 0.35f;
+  Eigen::Vector3f background;
+  float nearest, depth;  // m
+};
+PointFade point_fade(const View& view, const Scene& scene);
 
 }  // namespace patchlab::viewer

@@ -1,5 +1,6 @@
 #include "tests/viewer/render/picture.h"
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -7,9 +8,9 @@
 
 namespace patchlab::viewer {
 
-Studio::Studio(int width, int height) {
+Studio::Studio(int width, int height, int samples) {
   Result<std::unique_ptr<Platform>> made =
-      make_platform({.width = width, .height = height, .headless = true});
+      make_platform({.width = width, .height = height, .headless = true, .samples = samples});
   if (!made) {
     ADD_FAILURE() << made.error().message;
     return;
@@ -29,6 +30,7 @@ Image Studio::take(const Scene& scene, const ViewCamera& camera) {
   platform->begin_frame();
   renderer->draw(scene, camera, {0, 0, platform->width(), platform->height()});
   platform->end_frame();
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   return platform->read_image();
 }
 

@@ -14,7 +14,8 @@ struct Studio {
   std::unique_ptr<Platform> platform;
   std::optional<Renderer> renderer;
 
-  Studio(int width, int height);
+  // samples as in PlatformOptions.
+  Studio(int width, int height, int samples = -1);
   ~Studio();
   Image take(const Scene& scene, const ViewCamera& camera);
 };

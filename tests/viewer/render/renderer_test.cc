@@ -16,17 +16,25 @@ constexpr Rgba8 kRed = {255, 0, 0, 255}, kGreen = {0, 255, 0, 255}, kBlue = {0, 
 constexpr Pixel kRedPixel = {255, 0, 0}, kGreenPixel = {0, 255, 0}, kBluePixel = {0, 0, 255},
                 kBlack = {0, 0, 0};
 
-// 200 x 100 pixels: a point (x, y, -1) is at (100 + 50 x, 50 - 50 y).
-class RendererTest : public testing::Test {
+// 200 x 100 pixels: a point (x, y, -1) is at (100 + 50 x, 50 - 50 y). With the samples of PlatformOptions: as
+// the platform thinks best (without a GPU the processor draws the points), and multisampled.
+class RendererTest : public testing::TestWithParam<int> {
  protected:
-  static void SetUpTestSuite() { studio_ = std::make_unique<Studio>(200, 100); }
+  void SetUp() override {
+    if (!studio_) renew_studio();
+  }
   static void TearDownTestSuite() { studio_.reset(); }
-  Studio& studio = *studio_;
-  Scene scene;
-  Image take() { return studio.take(scene, straight_camera()); }
+  void renew_studio() {
+    studio_.reset();
+    studio_ = std::make_unique<Studio>(200, 100, GetParam());
+  }
+  Image take() { return studio_->take(scene, straight_camera()); }
 
+  Scene scene;
   static inline std::unique_ptr<Studio> studio_;
 };
+INSTANTIATE_TEST_SUITE_P(AsThePlatformThinksBest, RendererTest, testing::Values(-1));
+INSTANTIATE_TEST_SUITE_P(Multisampled, RendererTest, testing::Values(4));
 
 PointsItem points(std::vector<Vector3f> positions, Rgba8 colour, float size = 6.0f) {
   std::vector<Rgba8> colours(positions.size(), colour);
@@ -42,7 +50,7 @@ MeshItem square(float half, float z, Rgba8 colour) {
   return {share(std::move(corners)), share<std::uint32_t>({0, 1, 2, 0, 2, 3}), false};
 }
 
-TEST_F(RendererTest, BackgroundRunsFromTopToBottom) {
+TEST_P(RendererTest, BackgroundRunsFromTopToBottom) {
   scene.background_top = {1.0f, 0.0f, 0.0f, 1.0f};
   scene.background_bottom = {0.0f, 0.0f, 1.0f, 1.0f};
   const Image image = take();
@@ -51,7 +59,7 @@ TEST_F(RendererTest, BackgroundRunsFromTopToBottom) {
   EXPECT_EQ(at(image, 10, 50).r, at(image, 190, 50).r);
 }
 
-TEST_F(RendererTest, PointIsADiskAtItsPixel) {
+TEST_P(RendererTest, PointIsADiskAtItsPixel) {
   scene.points = {points({{0.5f, 0.3f, -1.0f}}, kRed, 13.0f)};
   const Image image = take();
   EXPECT_EQ(at(image, 125, 35), kRedPixel);
@@ -60,15 +68,15 @@ TEST_F(RendererTest, PointIsADiskAtItsPixel) {
   EXPECT_EQ(at(image, 132, 35), kBlack);
 }
 
-TEST_F(RendererTest, PointsFollowTheOriginOfTheScene) {
+TEST_P(RendererTest, PointsFollowTheOriginOfTheScene) {
   scene.origin = {1e6, -2e6, 3e6};
   scene.points = {points({{0.5f, 0.3f, -1.0f}}, kRed)};
   ViewCamera camera = straight_camera();
   camera.position = scene.origin;
-  EXPECT_EQ(at(studio.take(scene, camera), 125, 35), kRedPixel);
+  EXPECT_EQ(at(studio_->take(scene, camera), 125, 35), kRedPixel);
 }
 
-TEST_F(RendererTest, PointsThatAreNotFiniteAreLeftOut) {
+TEST_P(RendererTest, PointsThatAreNotFiniteAreLeftOut) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   scene.points = {
       points({{nan, 0.0f, -1.0f}, {0.0f, inf, -1.0f}, {0.0f, 0.0f, nan}, {0.5f, 0.3f, -1.0f}}, kRed)};
@@ -77,7 +85,7 @@ TEST_F(RendererTest, PointsThatAreNotFiniteAreLeftOut) {
   EXPECT_EQ(at(image, 100, 50), kBlack);
 }
 
-TEST_F(RendererTest, AlphaOfAPointFadesItToTheBackground) {
+TEST_P(RendererTest, AlphaOfAPointFadesItToTheBackground) {
   scene.background_top = scene.background_bottom = {0.0f, 0.0f, 1.0f, 1.0f};
   scene.points = {points({{0.0f, 0.0f, -1.0f}}, {255, 0, 0, 0}),
                   points({{0.5f, 0.3f, -1.0f}}, {255, 0, 0, 128})};
@@ -87,7 +95,7 @@ TEST_F(RendererTest, AlphaOfAPointFadesItToTheBackground) {
   EXPECT_NEAR(at(image, 125, 35).b, 127, 2);
 }
 
-TEST_F(RendererTest, FarPointsAreFadedButNearOnesKeepTheirColour) {
+TEST_P(RendererTest, FarPointsAreFadedButNearOnesKeepTheirColour) {
   scene.points = {points({{-1.0f, 0.0f, -1.0f}, {4.0f, 0.0f, -4.0f}}, kRed)};
   const Image image = take();
   EXPECT_GT(at(image, 50, 50).r, 250);
@@ -95,14 +103,14 @@ TEST_F(RendererTest, FarPointsAreFadedButNearOnesKeepTheirColour) {
   EXPECT_GT(at(image, 150, 50).r, 120);
 }
 
-TEST_F(RendererTest, NewColoursShowAtOnceAndOldPositionsStay) {
+TEST_P(RendererTest, NewColoursShowAtOnceAndOldPositionsStay) {
   scene.points = {points({{0.0f, 0.0f, -1.0f}}, kRed)};
   take();
   scene.points[0].colours = share<Rgba8>({kGreen});
   EXPECT_EQ(at(take(), 100, 50), kGreenPixel);
 }
 
-TEST_F(RendererTest, ArraysThatAreGoneAreNotMistakenForNewOnes) {
+TEST_P(RendererTest, ArraysThatAreGoneAreNotMistakenForNewOnes) {
   for (int i = 0; i < 50; ++i) {  // an allocator gives the same address again and again
     scene.points.clear();
     scene.points = {
@@ -111,7 +119,18 @@ TEST_F(RendererTest, ArraysThatAreGoneAreNotMistakenForNewOnes) {
   }
 }
 
-TEST_F(RendererTest, MeshCoversItsPixels) {
+TEST_P(RendererTest, EveryStepThPointIsDrawn) {
+  scene.points = {
+      points({{-1.0f, 0.0f, -1.0f}, {-0.5f, 0.0f, -1.0f}, {0.0f, 0.0f, -1.0f}, {0.5f, 0.0f, -1.0f}}, kRed)};
+  scene.points[0].step = 3;
+  const Image image = take();
+  EXPECT_EQ(at(image, 50, 50), kRedPixel);
+  EXPECT_EQ(at(image, 75, 50), kBlack);
+  EXPECT_EQ(at(image, 100, 50), kBlack);
+  EXPECT_EQ(at(image, 125, 50), kRedPixel);
+}
+
+TEST_P(RendererTest, MeshCoversItsPixels) {
   scene.meshes = {square(0.4f, -1.0f, kGreen)};
   const Image image = take();
   EXPECT_EQ(at(image, 81, 31), kGreenPixel);
@@ -120,7 +139,7 @@ TEST_F(RendererTest, MeshCoversItsPixels) {
   EXPECT_EQ(at(image, 100, 28), kBlack);
 }
 
-TEST_F(RendererTest, NearerThingsHideFartherOnesInAnyOrder) {
+TEST_P(RendererTest, NearerThingsHideFartherOnesInAnyOrder) {
   for (const bool swap : {false, true}) {
     scene.meshes = {square(0.4f, -1.0f, kGreen), square(0.8f, -2.0f, kBlue)};
     if (swap) std::swap(scene.meshes[0], scene.meshes[1]);
@@ -131,7 +150,7 @@ TEST_F(RendererTest, NearerThingsHideFartherOnesInAnyOrder) {
   }
 }
 
-TEST_F(RendererTest, TranslucentMeshesBlendFromBackToFrontInAnyOrder) {
+TEST_P(RendererTest, TranslucentMeshesBlendFromBackToFrontInAnyOrder) {
   for (const bool swap : {false, true}) {
     scene.meshes = {square(0.4f, -1.0f, {0, 255, 0, 128}), square(0.8f, -2.0f, {0, 0, 255, 128}),
                     square(1.5f, -3.0f, kRed)};
@@ -143,7 +162,7 @@ TEST_F(RendererTest, TranslucentMeshesBlendFromBackToFrontInAnyOrder) {
   }
 }
 
-TEST_F(RendererTest, LitMeshKeepsItsColourSquareOnAndDarkensAslant) {
+TEST_P(RendererTest, LitMeshKeepsItsColourSquareOnAndDarkensAslant) {
   MeshItem facing = square(0.4f, -1.0f, {200, 100, 50, 255});
   facing.lit = true;
   scene.meshes = {facing};
@@ -162,7 +181,7 @@ TEST_F(RendererTest, LitMeshKeepsItsColourSquareOnAndDarkensAslant) {
   EXPECT_EQ(at(take(), 100, 50), darker) << "both sides are lit alike";
 }
 
-TEST_F(RendererTest, LineIsAsWideAsItSays) {
+TEST_P(RendererTest, LineIsAsWideAsItSays) {
   scene.lines = {
       {.points = {{-1.0f, 0.0f, -1.0f}, {1.0f, 0.0f, -1.0f}}, .colour = {1, 0, 0, 1}, .width = 6.0f}};
   const Image image = take();
@@ -174,7 +193,7 @@ TEST_F(RendererTest, LineIsAsWideAsItSays) {
   EXPECT_EQ(at(image, 160, 50), kBlack);
 }
 
-TEST_F(RendererTest, TranslucentLineIsEvenAcrossItsJoints) {
+TEST_P(RendererTest, TranslucentLineIsEvenAcrossItsJoints) {
   LineItem line{.colour = {1, 0, 0, 0.5f}, .width = 10.0f, .closed = true};
   for (int i = 0; i < 40; ++i) {
     const float angle = 0.05f * 3.14159265f * static_cast<float>(i);
@@ -195,7 +214,7 @@ TEST_F(RendererTest, TranslucentLineIsEvenAcrossItsJoints) {
   EXPECT_LE(lighter, 4);
 }
 
-TEST_F(RendererTest, LinesThroughTheEyeAreCutNotFolded) {
+TEST_P(RendererTest, LinesThroughTheEyeAreCutNotFolded) {
   scene.lines = {
       {.points = {{0.5f, 0.0f, 3.0f}, {0.5f, 0.0f, -1.0f}}, .colour = {1, 0, 0, 1}, .width = 4.0f}};
   const Image image = take();
@@ -205,7 +224,7 @@ TEST_F(RendererTest, LinesThroughTheEyeAreCutNotFolded) {
   EXPECT_EQ(at(image, 110, 50), kBlack);
 }
 
-TEST_F(RendererTest, LineOnASurfaceIsWholeAndOneBehindItIsHidden) {
+TEST_P(RendererTest, LineOnASurfaceIsWholeAndOneBehindItIsHidden) {
   scene.meshes = {square(0.8f, -1.0f, kBlue)};
   scene.lines = {
       {.points = {{-0.5f, 0.2f, -1.0f}, {0.5f, 0.2f, -1.0f}}, .colour = {1, 0, 0, 1}, .width = 4.0f},
@@ -215,7 +234,7 @@ TEST_F(RendererTest, LineOnASurfaceIsWholeAndOneBehindItIsHidden) {
   EXPECT_EQ(at(image, 100, 59), kBluePixel);
 }
 
-TEST_F(RendererTest, LineOnTopShowsThroughAndItsHiddenPartIsDimmed) {
+TEST_P(RendererTest, LineOnTopShowsThroughAndItsHiddenPartIsDimmed) {
   scene.meshes = {square(0.4f, -1.0f, kBlue)};
   LineItem line{.points = {{-1.6f, 0.0f, -2.0f}, {1.6f, 0.0f, -2.0f}}, .colour = {1, 0, 0, 1}, .width = 4.0f};
   line.on_top = true;
@@ -228,15 +247,15 @@ TEST_F(RendererTest, LineOnTopShowsThroughAndItsHiddenPartIsDimmed) {
   EXPECT_EQ(at(image, 70, 50), kRedPixel);
 }
 
-TEST_F(RendererTest, DrawsInItsViewportOnly) {
+TEST_P(RendererTest, DrawsInItsViewportOnly) {
   scene.background_top = scene.background_bottom = {0.0f, 0.0f, 1.0f, 1.0f};
   scene.points = {points({{0.0f, 0.0f, -1.0f}}, kRed)};
   scene.lines = {
       {.points = {{-9.0f, 0.0f, -1.0f}, {9.0f, 0.0f, -1.0f}}, .colour = {0, 1, 0, 1}, .width = 4.0f}};
-  studio.platform->begin_frame();
-  studio.renderer->draw(scene, straight_camera(), {100, 20, 80, 60});
-  studio.platform->end_frame();
-  const Image image = studio.platform->read_image();
+  studio_->platform->begin_frame();
+  studio_->renderer->draw(scene, straight_camera(), {100, 20, 80, 60});
+  studio_->platform->end_frame();
+  const Image image = studio_->platform->read_image();
   EXPECT_EQ(at(image, 99, 50), kBlack);
   EXPECT_EQ(at(image, 180, 50), kBlack);
   EXPECT_EQ(at(image, 140, 19), kBlack);
@@ -245,22 +264,21 @@ TEST_F(RendererTest, DrawsInItsViewportOnly) {
   EXPECT_EQ(at(image, 101, 50), kGreenPixel);
 }
 
-TEST_F(RendererTest, IncompleteItemsAreLeftOut) {
+TEST_P(RendererTest, IncompleteItemsAreLeftOut) {
   scene.points = {{}, {share<Vector3f>({{0.0f, 0.0f, -1.0f}}), share<Rgba8>({}), 5.0f}};
   scene.meshes = {{}};
   scene.lines = {{}, {.points = {{0.0f, 0.0f, -1.0f}}, .colour = {1, 0, 0, 1}}};
   EXPECT_EQ(at(take(), 100, 50), kBlack);
 }
 
-TEST_F(RendererTest, SameSceneTwiceIsTheSamePicture) {
+TEST_P(RendererTest, SameSceneTwiceIsTheSamePicture) {
   scene.points = {points({{0.5f, 0.3f, -1.0f}, {0.0f, 0.0f, -2.0f}}, kRed)};
   scene.meshes = {square(0.4f, -1.0f, {0, 255, 0, 90})};
   scene.lines = {
       {.points = {{-1.0f, -0.3f, -1.0f}, {1.0f, 0.4f, -1.0f}}, .colour = {1, 1, 0, 1}, .width = 3.0f}};
   const Image first = take();
   EXPECT_EQ(take().rgb, first.rgb);
-  studio_.reset();
-  studio_ = std::make_unique<Studio>(200, 100);
+  renew_studio();
   EXPECT_EQ(studio_->take(scene, straight_camera()).rgb, first.rgb);
 }
 
