@@ -219,7 +219,7 @@ JointState seeded(const SurfaceFit& fit, const MomentVector& moments) {
     state.w[i] = variable(0.0, 2 + i);
     state.t[i] = variable(0.0, 5 + i);
   }
-  for (int i = 0; i < moments_size; ++i) state.moments[i] = variable(moments[i], chart_size + i);
+  for (int i = 0; i < moments_size; ++i) state.moments[i] = variable(moments[i], moments_at + i);
   return state;
 }
 

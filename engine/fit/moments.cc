@@ -1,13 +1,15 @@
 #include "engine/fit/moments.h"
 
 #include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
 
 namespace patchlab {
 namespace {
 
-using Matrix9 = Eigen::Matrix<double, moments_size, moments_size>;
 using Matrix93 = Eigen::Matrix<double, moments_size, 3>;
 using Matrix98 = Eigen::Matrix<double, moments_size, chart_size>;
+using Matrix32 = Eigen::Matrix<double, 3, 2>;
 using Matrix38 = Eigen::Matrix<double, 3, chart_size>;
 
 // What one sample contributes: how its projected point x moves with its noise and with the surface.
@@ -28,6 +30,54 @@ Motion motion(const Residual& r, const SurfaceFit& fit, const Vector3d& q, const
   m.X_chart = m.X_q * q_chart;
   m.X_chart.leftCols<2>() -= along * J_f_chart(fit.model, r.x, r.g).head<2>().transpose();
   return m;
+}
+
+using JointColumns = Eigen::Matrix<double, joint_size, 3>;
+using PlaneColumns = Eigen::Matrix<double, plane_size, 3>;
+
+ChartMatrix inverse_of(const SurfaceFit& fit) {
+  return spread(fit.model, StepMatrix(fit.A.ldlt().solve(StepMatrix::Identity(fit.A.rows(), fit.A.cols()))));
+}
+
+// The chart rows that a plane frees: w_x, w_y, t_z.
+constexpr std::array<int, plane_size> plane_rows = {2, 3, 7};
+
+// F_p F_q' of the plane's fit for sample i, its columns in the axes of `R`.
+PlaneColumns plane_columns(const SurfaceFit* plane, const Samples& samples, std::size_t i, const Matrix3d& R) {
+  if (plane == nullptr) return PlaneColumns::Zero();
+  const Residual r = residual(Distance::paper, plane->model, plane->state, samples.q[i], samples.cov[i]);
+  const Vector3d F_q = R.transpose() * (plane->state.R * r.F_q);
+  PlaneColumns columns;
+  for (int row = 0; row < plane_size; ++row) {
+    columns.row(row) = r.F_p[plane_rows[static_cast<std::size_t>(row)]] * F_q.transpose();
+  }
+  return columns;
+}
+
+// J_prior' J_prior (fitting.md section 1.4): two columns of unit variance.
+ChartMatrix prior_information(const SurfaceFit& fit) {
+  ChartMatrix information = ChartMatrix::Zero();
+  const Matrix32 tangents = fit.state.R.transpose() * fit.prior->tangents / fit.prior->sigma;
+  information.bottomRightCorner<3, 3>() = tangents * tangents.transpose();
+  return information;
+}
+
+// T of D = T B: the fits' own solves, and the moments carried along with the surface.
+JointMatrix solve_all(const SurfaceFit& fit, const SurfaceFit* plane, const Matrix98& M) {
+  JointMatrix T = JointMatrix::Zero();
+  const ChartMatrix A_inverse = inverse_of(fit);
+  T.topLeftCorner<chart_size, chart_size>() = -A_inverse;
+  T.bottomLeftCorner<moments_size, chart_size>() = -M * A_inverse;
+  T.bottomRightCorner<moments_size, moments_size>().setIdentity();
+  if (plane == nullptr) return T;
+  const ChartMatrix plane_inverse = inverse_of(*plane);
+  for (int i = 0; i < plane_size; ++i) {
+    for (int j = 0; j < plane_size; ++j) {
+      T(plane_at + i, plane_at + j) =
+          -plane_inverse(plane_rows[static_cast<std::size_t>(i)], plane_rows[static_cast<std::size_t>(j)]);
+    }
+  }
+  return T;
 }
 
 }  // namespace
@@ -58,38 +108,31 @@ MomentVector moments(const std::vector<Vector3d>& points, const std::vector<doub
 
 JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet,
                              const JointOptions& options) {
-  const StepMatrix A_inverse = fit.A.ldlt().solve(StepMatrix::Identity(fit.A.rows(), fit.A.cols()));
-  const ChartMatrix cov_chart = spread(fit.model, StepMatrix(0.5 * (A_inverse + A_inverse.transpose())));
   const MomentVector mean = moments(feet.x, feet.weight);
-  Matrix98 M = Matrix98::Zero();  // d moments / d chart
-  Matrix98 leak =
-      Matrix98::Zero();           // sum of (d moments / d e)(F_q' L)' F_p': zero where foot points are exact
-  Matrix9 own = Matrix9::Zero();  // of the moments alone: noise across the normal, and sampling
+  Matrix98 M = Matrix98::Zero();
+  JointMatrix G = JointMatrix::Zero();
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double weight = feet.weight[i];
-    if (weight == 0.0) continue;
+    if (samples.robust[i] == 0.0) continue;
     const Vector3d q = to_local(fit.state, samples.q[i]);
     const Matrix3d S = fit.state.R.transpose() * samples.cov[i] * fit.state.R;
     const Residual r = residual(options.distance, fit.model, fit.state, samples.q[i], samples.cov[i]);
     const Motion m = motion(r, fit, q, S, options.projection);
-    const Matrix93 phi_x = weight * J_monomials(feet.x[i]);
-    const Matrix93 phi_q = phi_x * m.X_q;
+    const Matrix93 phi_x = feet.weight[i] * J_monomials(feet.x[i]);
     M.noalias() += phi_x * m.X_chart;
-    leak.noalias() += (phi_q * (S * r.F_q)) * r.F_p.transpose();
-    own.noalias() += phi_q * S * phi_q.transpose();
+    JointColumns B;
+    B.topRows<chart_size>() = std::sqrt(samples.robust[i]) * r.F_p * r.F_q.transpose();
+    B.middleRows<plane_size>(plane_at) = plane_columns(options.plane, samples, i, fit.state.R);
+    B.bottomRows<moments_size>() = phi_x * m.X_q;
+    G.noalias() += (B * S) * B.transpose();
     if (options.sampling) {
-      const MomentVector away = weight * (monomials(feet.x[i]) - mean);
-      own.noalias() += away * away.transpose();
+      const MomentVector away = feet.weight[i] * (monomials(feet.x[i]) - mean);
+      G.bottomRightCorner<moments_size, moments_size>() += away * away.transpose();
     }
   }
-  const Matrix98 direct = M * cov_chart, indirect = -leak * cov_chart;
-  JointMatrix joint;
-  joint.topLeftCorner<chart_size, chart_size>() = cov_chart;
-  joint.bottomLeftCorner<moments_size, chart_size>() = direct + indirect;
-  joint.topRightCorner<chart_size, moments_size>() = (direct + indirect).transpose();
-  joint.bottomRightCorner<moments_size, moments_size>() =
-      own + direct * M.transpose() + indirect * M.transpose() + M * indirect.transpose();
-  return joint;
+  if (fit.prior) G.topLeftCorner<chart_size, chart_size>() += prior_information(fit);
+  const JointMatrix T = solve_all(fit, options.plane, M);
+  const JointMatrix joint = T * G * T.transpose();
+  return 0.5 * (joint + joint.transpose());
 }
 
 }  // namespace patchlab
