@@ -72,10 +72,14 @@ void MeshPass::draw_one(const MeshItem& item) {
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(item.triangles->size()), GL_UNSIGNED_INT, nullptr);
 }
 
-void MeshPass::draw(const std::vector<MeshItem>& items, const View& view) {
+void MeshPass::use(const View& view) const {
   program_.use();
   set_view(program_, view);
   program_.set("perspective", view.perspective ? 1.0f : 0.0f);
+}
+
+void MeshPass::draw(const std::vector<MeshItem>& items, const View& view) {
+  use(view);
   for (const MeshItem* item : back_to_front(items, view, false)) draw_one(*item);
 
   glEnable(GL_BLEND);
@@ -92,6 +96,13 @@ void MeshPass::draw(const std::vector<MeshItem>& items, const View& view) {
   glDisable(GL_BLEND);
   vertices_.drop_unheld();
   triangles_.drop_unheld();
+}
+
+void MeshPass::draw_depth_of_translucent(const std::vector<MeshItem>& items, const View& view) {
+  use(view);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  for (const MeshItem* item : back_to_front(items, view, true)) draw_one(*item);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 }  // namespace patchlab::viewer

@@ -14,6 +14,7 @@ class MeshPass {
   // Grows `box` by the items; what they need is on the GPU then.
   void prepare(const std::vector<MeshItem>& items, Box& box);
   void draw(const std::vector<MeshItem>& items, const View& view);
+  void draw_depth_of_translucent(const std::vector<MeshItem>& items, const View& view);
 
  private:
   struct Vertices {
@@ -27,6 +28,7 @@ class MeshPass {
   const Vertices& resident(const MeshItem& item);
   std::vector<const MeshItem*> back_to_front(const std::vector<MeshItem>& items, const View& view,
                                              bool translucent);
+  void use(const View& view) const;
   void draw_one(const MeshItem& item);
 
   Program program_;

@@ -99,7 +99,10 @@ void Renderer::draw(const Scene& scene, const ViewCamera& camera, const Viewport
     state.points.draw(scene.points, view, fade);
   }
   state.meshes.draw(scene.meshes, view);
-  state.lines.draw(scene.lines, view);
+  state.lines.load(scene.lines);
+  state.lines.draw_veiled(view);
+  state.meshes.draw_depth_of_translucent(scene.meshes, view);
+  state.lines.draw_unveiled(view);
   end();
 }
 

@@ -41,13 +41,14 @@ struct MeshItem {
   bool lit = true;
 };
 
+// Where it is seen through a translucent mesh it is dimmed; where anything else hides it, it is not drawn.
 struct LineItem {
   std::vector<Eigen::Vector3f> points{};
   Rgba colour{};
   float width = 2.0f;  // px
   bool closed = false;
   bool on_top = false;        // drawn over everything (axes, ellipsoid rims)
-  float hidden_alpha = 1.0f;  // on_top: opacity of the part that points or opaque meshes hide
+  float hidden_alpha = 1.0f;  // on_top: opacity of the part that something hides
 };
 
 struct Scene {

@@ -234,6 +234,18 @@ TEST_P(RendererTest, LineOnASurfaceIsWholeAndOneBehindItIsHidden) {
   EXPECT_EQ(at(image, 100, 59), kBluePixel);
 }
 
+TEST_P(RendererTest, LineIsDimmedBehindATranslucentMeshAndWholeInFrontOfIt) {
+  scene.meshes = {square(0.8f, -1.0f, {0, 0, 255, 1})};
+  for (const float alpha : {1.0f, 0.5f}) {
+    scene.lines = {
+        {.points = {{-0.5f, 0.2f, -1.0f}, {0.5f, 0.2f, -1.0f}}, .colour = {1, 0, 0, alpha}, .width = 4.0f},
+        {.points = {{-0.5f, -0.2f, -1.1f}, {0.5f, -0.2f, -1.1f}}, .colour = {1, 0, 0, alpha}, .width = 4.0f}};
+    const Image image = take();
+    EXPECT_NEAR(at(image, 100, 40).r, 255.0f * alpha, 2.0f);
+    EXPECT_NEAR(at(image, 100, 59).r, 255.0f * alpha * 0.35f, 3.0f);
+  }
+}
+
 TEST_P(RendererTest, LineOnTopShowsThroughAndItsHiddenPartIsDimmed) {
   scene.meshes = {square(0.4f, -1.0f, kBlue)};
   LineItem line{.points = {{-1.6f, 0.0f, -2.0f}, {1.6f, 0.0f, -2.0f}}, .colour = {1, 0, 0, 1}, .width = 4.0f};
