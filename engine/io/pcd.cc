@@ -49,9 +49,11 @@ std::vector<Column> one_after_another(const std::vector<PcdField>& fields, std::
 }
 
 void note_rest(const Source& source, std::uint64_t used) {
-  if (source.data.size() == used) return;
-  source.notices.push_back("The file goes on for " + std::to_string(source.data.size() - used) +
-                           " bytes after its last point; they were left out.");
+  const std::string_view rest = source.data.substr(used);
+  if (rest.empty()) return;
+  const bool padding = rest.find_first_not_of('\0') == std::string_view::npos;
+  source.notices.push_back(std::to_string(rest.size()) + (padding ? " zero bytes (padding)" : " bytes") +
+                           " after the last point were left out.");
 }
 
 Error too_short(const Source& source, std::uint64_t needed) {

@@ -16,6 +16,7 @@ using Points = std::vector<Eigen::Vector3d>;
 
 constexpr std::uint64_t bytes_a_point = 128;  // of a Scan with everything, and of what it is made from
 constexpr double large = 1000.0;              // m: a float there is coarser than 0.05 mm
+constexpr double wide = 5000.0;               // m: more than a scan of metres spans
 
 constexpr Names3 coordinate_names = {"x", "y", "z"};
 constexpr Names3 viewpoint_names = {"vp_x", "vp_y", "vp_z"};
@@ -87,6 +88,11 @@ void place_points(Scan& scan, const Points& points, OriginRule rule) {
     scan.finite_count += finite ? 1 : 0;
   }
   if (scan.finite_count == 0) scan.notices.emplace_back("None of the points has finite coordinates.");
+  const std::optional<Bounds> box = bounds(scan);
+  if (!box || (box->max - box->min).norm() < wide) return;
+  scan.notices.emplace_back(
+      "The points span kilometres: patchlab takes coordinates as metres; if these are millimetres, scale "
+      "them first.");
 }
 
 void fill_colours(Scan& scan, Columns columns, std::size_t points) {
