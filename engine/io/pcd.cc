@@ -80,7 +80,9 @@ std::uint32_t little_endian(std::string_view bytes) {
 
 Result<Body> read_compressed(const Source& source) {
   constexpr std::size_t sizes = 8;
-  if (source.data.size() < sizes) return too_short(source, sizes);
+  if (source.data.size() < sizes) {
+    return unreadable(source.name, "ends where its compressed points should begin; the file is cut off.");
+  }
   const std::uint64_t compressed = little_endian(source.data),
                       uncompressed = little_endian(source.data.substr(4));
   const std::uint64_t expected = source.header.points * source.header.point_bytes();
@@ -131,8 +133,8 @@ Result<void> store_line(const Source& source, const std::vector<PcdField>& field
       }
       if (!store_number(word, field.type, to)) {
         return unreadable_line(source.name, number,
-                               shown(word) + " for field " + shown(field.name) + " is not a " +
-                                   std::string(name(field.type)) + " number.");
+                               shown(word) + " for field " + shown(field.name) + " is not a number of type " +
+                                   std::string(name(field.type)) + ".");
       }
       to += size_of(field.type);
     }

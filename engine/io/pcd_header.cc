@@ -90,15 +90,15 @@ Result<void> HeaderParser::collect_entries() {
                              "the PCD header is too long; it must stay below 64 KB, a line below 4 KB.");
     }
     const std::string_view text = trimmed(*line);
+    if (text.find('\r') != std::string_view::npos) {
+      return unreadable_line(name_, lines.number(),
+                             "lines end with a carriage return alone; convert the line ends to LF.");
+    }
     if (text.empty() || text.front() == '#') continue;
     if (text.starts_with("DATA")) return take_data(text, lines);
     if (const Result<void> taken = take_entry(text, lines.number()); !taken) return taken;
   }
-  const bool carriage_returns_only =
-      bytes_.find('\n') == std::string_view::npos && bytes_.find('\r') != std::string_view::npos;
-  return unreadable(name_, carriage_returns_only
-                               ? "its lines end with a carriage return alone; convert the line ends to LF."
-                               : "the PCD header ends without a DATA line; the file is cut off.");
+  return unreadable(name_, "the PCD header ends without a DATA line; the file is cut off.");
 }
 
 Result<void> HeaderParser::take_entry(std::string_view line, std::size_t number) {

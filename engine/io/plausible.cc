@@ -33,21 +33,12 @@ bool makes_sense(const std::array<Column, 3>& xyz, std::size_t points) {
   return 2 * static_cast<std::size_t>(finite) > points && strange_share(read) < 0.1;
 }
 
+bool is_floating(Scalar type) { return type == Scalar::float32 || type == Scalar::float64; }
+
+// Integers of the size of a floating point number, and the other way round.
 Scalar other_kind(Scalar type) {
-  switch (type) {
-    case Scalar::int32:
-    case Scalar::uint32:
-      return Scalar::float32;
-    case Scalar::int64:
-    case Scalar::uint64:
-      return Scalar::float64;
-    case Scalar::float32:
-      return Scalar::int32;
-    case Scalar::float64:
-      return Scalar::int64;
-    default:
-      return type;
-  }
+  if (is_floating(type)) return type == Scalar::float32 ? Scalar::int32 : Scalar::int64;
+  return size_of(type) == 4 ? Scalar::float32 : size_of(type) == 8 ? Scalar::float64 : type;
 }
 
 }  // namespace
@@ -57,8 +48,10 @@ Plausibility judge_coordinates(const std::array<Column, 3>& xyz, const std::vect
   std::array<Column, 3> swapped = xyz, retyped = xyz;
   for (Column& column : swapped) column.swapped = !column.swapped;
   for (Column& column : retyped) column.type = other_kind(column.type);
-  if (makes_sense(swapped, points.size())) return Plausibility::other_order;
-  if (makes_sense(retyped, points.size())) return Plausibility::other_type;
+  // Reversed floating point numbers look like small integers, so either may seem to explain the other.
+  const bool order = makes_sense(swapped, points.size()), type = makes_sense(retyped, points.size());
+  if (order && (is_floating(xyz[0].type) || !type)) return Plausibility::other_order;
+  if (type) return Plausibility::other_type;
   return Plausibility::doubtful;
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t sniffed = 64 << 10;  // bytes looked at to recognise a format
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-constexpr const char* readable =
-    "patchlab reads PCD files and point tables (CSV with a header row x,y,z); convert it to one of them.";
+constexpr std::string_view convert =
+    "; patchlab reads PCD files and point tables (CSV with a header row x,y,z): convert it to one of them";
 
 using Reader = Result<Scan> (*)(std::string_view bytes, const std::string& name, const ReadOptions& options);
 
@@ -104,7 +104,7 @@ constexpr Magic magics[] = {
 
 struct Recognised {
   bool (*matches)(std::string_view bytes);
-  std::string_view what;
+  std::string_view what;  // and, after a semicolon, what to do about it where it is not to convert the file
 };
 constexpr Recognised others[] = {
     {is_utf16, "text in UTF-16; save it as UTF-8"},
@@ -132,12 +132,15 @@ Result<Scan> dispatch(std::string_view bytes, const std::string& name, const Rea
   for (const ReaderRow& row : readers) {
     if (row.matches(bytes)) return row.read(bytes, name, options);
   }
-  return unreadable(name, "is " + std::string(recognise(bytes)) + "; " + readable);
+  const std::string what(recognise(bytes));
+  const bool says_what_to_do = what.find(';') != std::string::npos;
+  return unreadable(name, "is " + what + (says_what_to_do ? "" : std::string(convert)) + ".");
 }
 
 }  // namespace
 
-Result<Scan> read_scan_bytes(std::string_view bytes, const std::string& name, const ReadOptions& options) try {
+Result<Scan> read_scan_bytes(std::string_view bytes, const std::string& name,
+                             const ReadOptions& options) try {
   Result<Scan> scan = dispatch(bytes, name, options);
   if (scan) scan->file = name;
   return scan;

@@ -16,7 +16,7 @@ namespace patchlab {
 struct ReadOptions {
   bool points_in_sensor_frame = false;   // --points-in sensor: PCD points are in the sensor's frame, apply VIEWPOINT
   std::uint64_t memory_limit = std::uint64_t{2} << 30;  // bytes the points may take
-  Progress progress;
+  Progress progress = {};
 };
 
 // By content, not by extension alone. "-" is standard input.

@@ -1,0 +1,122 @@
+// Small valid files, damaged at random: the readers refuse them with a sentence or give a scan that hangs
+// together.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "engine/base/random.h"
+#include "engine/io/read_scan.h"
+
+namespace patchlab {
+namespace {
+
+constexpr int mutations_a_file = 4000;
+
+Scan small_scan() {
+  Scan scan;
+  scan.width = 4;
+  scan.height = 3;
+  for (int i = 0; i < 12; ++i) scan.positions.emplace_back(0.1F * static_cast<float>(i), 0.2F, 1.F);
+  scan.finite.assign(12, 1);
+  scan.finite_count = 12;
+  scan.colours.assign(12, {1, 2, 3});
+  scan.labels.assign(12, 7);
+  scan.covariances.assign(12, {1e-6, 0, 0, 1e-6, 0, 1e-6});
+  scan.viewpoint.position = {0, 0, 1};
+  scan.viewpoint.stated = true;
+  return scan;
+}
+
+const std::string header =
+    "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z _ label\nSIZE 4 8 4 1 2\nTYPE F F F U U\nCOUNT 1 1 1 0 1\nWIDTH 3\nHEIGHT 2\n"
+    "VIEWPOINT 0 0 1 1 0 0 0\nPOINTS 6\n";
+
+std::string ascii_file() {
+  return header + "DATA ascii\n0 1 2 1\n1 1e0 2 2\n-2 1 .5 3\nnan nan nan 0\n3 3 3 4\n5 5 5 5\n";
+}
+
+std::string compressed_file() {
+  std::string compressed("\3\0\0\0\0\xE0\x5F\0", 8);  // four zeros, and the last of them again and again
+  const std::uint32_t sizes[] = {static_cast<std::uint32_t>(compressed.size()), 6 * 18};
+  return header + "DATA binary_compressed\n" +
+         std::string(reinterpret_cast<const char*>(sizes), sizeof sizes) + compressed;
+}
+
+std::string table_file() {
+  return "x,y,z,cxx,cxy,cxz,cyy,cyz,czz,label\n1,2,3,1e-6,0,0,1e-6,0,1e-6,1\n4,5,6,1e-6,0,0,1e-6,0,1e-6,2\n";
+}
+
+// Bytes, and pieces of text that headers and numbers are made of.
+std::string mutated(std::string file, Random& random) {
+  const std::string pieces[] = {"-1", "0", "4294967295", "99999999999",       "1e9", " ", "\n", "\r\n", "nan",
+                                ",",  "x", "\xFF",       std::string(1, '\0')};
+  for (std::size_t change = 0, changes = 1 + random.index(3); change < changes && !file.empty(); ++change) {
+    const std::size_t at = random.index(file.size());
+    switch (random.index(5)) {
+      case 0:
+        file[at] = static_cast<char>(random.index(256));
+        break;
+      case 1:
+        file[at] = static_cast<char>(file[at] ^ 1 << random.index(8));
+        break;
+      case 2:
+        file.insert(at, pieces[random.index(std::size(pieces))]);
+        break;
+      case 3:
+        file.erase(at, 1 + random.index(8));
+        break;
+      case 4:
+        file.resize(random.index(4) == 0 ? at : file.size());
+        break;
+    }
+  }
+  return file;
+}
+
+void expect_whole(const Scan& scan) {
+  const std::size_t size = scan.size();
+  EXPECT_EQ(std::uint64_t{scan.width} * scan.height, size);
+  EXPECT_EQ(scan.finite.size(), size);
+  EXPECT_EQ(std::accumulate(scan.finite.begin(), scan.finite.end(), std::size_t{0}), scan.finite_count);
+  EXPECT_TRUE(scan.labels.empty() || scan.labels.size() == size);
+  EXPECT_TRUE(scan.colours.empty() || scan.colours.size() == size);
+  EXPECT_TRUE(scan.covariances.empty() || scan.covariances.size() == size);
+  EXPECT_TRUE(rotation(scan.viewpoint).allFinite());
+  for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(scan.point(i).allFinite(), scan.finite[i] == 1);
+}
+
+class MutationTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(MutationTest, IsRefusedOrWhole) {
+  Random random(std::hash<std::string_view>{}(GetParam()) % 1000);
+  int accepted = 0;
+  for (int i = 0; i < mutations_a_file; ++i) {
+    const std::string file = mutated(GetParam(), random);
+    const Result<Scan> scan = read_scan_bytes(file, "mutated");
+    if (scan) {
+      ++accepted;
+      expect_whole(*scan);
+    } else {
+      EXPECT_EQ(scan.error().code, ErrorCode::unreadable);
+      EXPECT_THAT(scan.error().message, testing::StartsWith("mutated: "));
+    }
+    if (HasFailure()) FAIL() << "mutation " << i << ": " << testing::PrintToString(file);
+  }
+  EXPECT_GT(accepted, mutations_a_file / 100) << "the damage never gets past the header";
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, MutationTest,
+                         testing::Values(write_pcd(small_scan()), ascii_file(), compressed_file(),
+                                         table_file(), header + "DATA binary\n" + std::string(6 * 18, '\1')));
+
+TEST(Mutation, StartsFromFilesThatAreRead) {
+  for (const std::string& file : {write_pcd(small_scan()), ascii_file(), compressed_file(), table_file()}) {
+    const Result<Scan> scan = read_scan_bytes(file, "whole");
+    ASSERT_TRUE(scan) << scan.error().message;
+    expect_whole(*scan);
+  }
+}
+
+}  // namespace
+}  // namespace patchlab

@@ -1,0 +1,98 @@
+// Formats are recognised by what files hold; what is not read is refused by name.
+#include "engine/io/read_scan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace patchlab {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string refusal(std::string_view bytes) {
+  const Result<Scan> scan = read_scan_bytes(bytes, "file");
+  if (scan) return "accepted";
+  EXPECT_EQ(scan.error().code, ErrorCode::unreadable);
+  EXPECT_THAT(scan.error().message, StartsWith("file: "));
+  EXPECT_THAT(scan.error().message, EndsWith("."));
+  return scan.error().message;
+}
+
+TEST(ReadScan, RecognisesPcdAndTablesByTheirContent) {
+  const std::string pcd =
+      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n";
+  for (const std::string& text : {"# .PCD v.7\n" + pcd, "# made by hand\n\nVERSION .7\n" + pcd, pcd}) {
+    const Result<Scan> scan = read_scan_bytes(text, "file");
+    ASSERT_TRUE(scan) << scan.error().message;
+    EXPECT_EQ(scan->format, "pcd");
+    EXPECT_EQ(scan->file, "file");
+  }
+  const Result<Scan> table = read_scan_bytes("\xEF\xBB\xBFx,y,z\n1,2,3\n", "file");
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->format, "csv");
+}
+
+TEST(ReadScan, NamesWhatItDoesNotRead) {
+  using namespace std::string_view_literals;
+  const std::pair<std::string_view, const char*> table[] = {
+      {"OFF\n3 1 0\n", "is an OFF mesh"},
+      {"# a comment\nv 0 0 0\n", "is an OBJ mesh"},
+      {"solid part\nfacet normal 0 0 1\n", "is an STL mesh"},
+      {"LASF\0\0\0\0"sv, "is a LAS or LAZ file"},
+      {"\x89PNG\r\n\x1a\n", "is a PNG image"},
+      {"P5\n640 480\n65535\n", "is a PGM or PPM image"},
+      {"#ROSBAG V2.0\n", "is a ROS bag"},
+      {"\xFF\xFEv\0e\0"sv, "UTF-16; save it as UTF-8"},
+      {"{\"version\": 1}", "is a JSON document"},
+      {"0.1 0.2 0.3\n", "without a header row; name its columns"},
+      {"1,2,3\n4,5,6\n", "without a header row"},
+      {"hello world", "in no format that is known"},
+      {std::string_view("\0\1\2\3", 4), "in no format that is known"},
+  };
+  for (const auto& [bytes, what] : table) EXPECT_THAT(refusal(bytes), HasSubstr(what));
+  EXPECT_THAT(refusal(std::string(80, 'b') + std::string("\1\0\0\0", 4) + std::string(50, '\0')),
+              HasSubstr("STL"));
+  EXPECT_THAT(refusal(""), HasSubstr("is empty"));
+}
+
+class ReadScanFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = testing::TempDir() + "patchlab_read_scan_XXXXXX";
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string refusal_of(const std::filesystem::path& file) const {
+    const Result<Scan> scan = read_scan(file);
+    return scan ? "accepted" : scan.error().message;
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(ReadScanFile, OnlyRegularFilesAreOpened) {
+  EXPECT_THAT(refusal_of(folder_), HasSubstr("is a folder"));
+  EXPECT_THAT(refusal_of(folder_ / "missing.pcd"), HasSubstr("missing.pcd: cannot be opened"));
+  const std::filesystem::path pipe = folder_ / "pipe.pcd";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(refusal_of(pipe), HasSubstr("not a regular file"));
+  EXPECT_THAT(refusal_of("/dev/zero"), HasSubstr("not a regular file"));
+  std::filesystem::create_symlink("loop.pcd", folder_ / "loop.pcd");
+  EXPECT_THAT(refusal_of(folder_ / "loop.pcd"), HasSubstr("cannot be opened"));
+}
+
+TEST_F(ReadScanFile, ScanIsNamedAsTheUserNamedIt) {
+  const std::filesystem::path file = folder_ / "points with spaces.csv";
+  std::ofstream(file) << "x,y,z\n1,2,3\n";
+  const Result<Scan> scan = read_scan(file);
+  ASSERT_TRUE(scan) << scan.error().message;
+  EXPECT_EQ(scan->file, file.string());
+}
+
+}  // namespace
+}  // namespace patchlab
