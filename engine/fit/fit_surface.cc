@@ -151,6 +151,18 @@ FootPoints foot_points(const Samples& samples, const SurfaceFit& fit) {
   return feet;
 }
 
+FootPoints plain_projection(const Samples& samples, const SurfaceFit& fit) {
+  FootPoints points;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    points.x.push_back(to_local(fit.state, samples.q[i]));
+    points.weight.push_back(samples.robust[i] > 0.0 ? 1.0 : 0.0);
+    sum += points.weight.back();
+  }
+  for (double& weight : points.weight) weight /= sum;
+  return points;
+}
+
 VertexStart vertex_start(const Samples& samples, const SurfaceFit& fixed) {
   const FootPoints feet = foot_points(samples, fixed);
   Vector2d centroid = Vector2d::Zero();

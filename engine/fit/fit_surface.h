@@ -56,6 +56,8 @@ struct FootPoints {
   std::vector<double> weight;  // sum 1; zero for points of robust weight zero
 };
 FootPoints foot_points(const Samples& samples, const SurfaceFit& fit);
+// The measured points themselves in local axes with equal weights: Eq. (16), step 5 as printed.
+FootPoints plain_projection(const Samples& samples, const SurfaceFit& fit);
 
 // The prior of a model's vertex, and the state to start its free fit from.
 struct VertexStart {

@@ -43,7 +43,8 @@ ChartMatrix inverse_of(const SurfaceFit& fit) {
 constexpr std::array<int, plane_size> plane_rows = {2, 3, 7};
 
 // F_p F_q' of the plane's fit for sample i, its columns in the axes of `R`.
-PlaneColumns plane_columns(const SurfaceFit* plane, const Samples& samples, std::size_t i, const Matrix3d& R) {
+PlaneColumns plane_columns(const SurfaceFit* plane, const Samples& samples, std::size_t i,
+                           const Matrix3d& R) {
   if (plane == nullptr) return PlaneColumns::Zero();
   const Residual r = residual(Distance::paper, plane->model, plane->state, samples.q[i], samples.cov[i]);
   const Vector3d F_q = R.transpose() * (plane->state.R * r.F_q);

@@ -18,8 +18,9 @@ MomentVector moments(const std::vector<Vector3d>& points, const std::vector<doub
 MomentVector monomials(const Vector3d& x);
 Eigen::Matrix<double, moments_size, 3> J_monomials(const Vector3d& x);
 
-// Everything a bounded patch is made from, in this order: the surface's chart (8, at zero); the tilt and height of the
-// plane of step 1 (w_x w_y t_z in its own axes), from which the paper's method takes the normal; the moments (9).
+// Everything a bounded patch is made from, in this order: the surface's chart (8, at zero); the tilt and
+// height of the plane of step 1 (w_x w_y t_z in its own axes), from which the paper's method takes the
+// normal; the moments (9).
 inline constexpr int plane_at = chart_size, plane_size = 3;
 inline constexpr int moments_at = plane_at + plane_size;
 inline constexpr int joint_size = moments_at + moments_size;
@@ -33,18 +34,19 @@ enum class Projection {
 struct JointOptions {
   Distance distance = Distance::exact;
   Projection projection = Projection::foot_points;
-  bool sampling = true;                // which points happened to be sampled (fitting.md section 1.4)
-  const SurfaceFit* plane = nullptr;   // of step 1, where its normal counts
+  bool sampling = true;               // which points happened to be sampled (fitting.md section 1.4)
+  const SurfaceFit* plane = nullptr;  // of step 1, where its normal counts
 };
 
 // The covariance of all these, as D D' over whitened inputs (fitting.md sections 1.2-1.4). With q_i += e_i:
 //   d chart / d e_i   = -A^-1 F_p F_q'
 //   d plane / d e_i   = the same of the plane's fit
 //   d moments / d e_i = w_i Phi_x X_q,i + M d chart / d e_i,   M = sum_i w_i Phi_x X_chart,i
-// D = T B with B_i = (F_p F_q'; F_p F_q' of the plane; w_i Phi_x X_q), so that B Sigma B' is a running sum: no p x 3N
-// matrix is ever held. Prior and sampling add their own columns.
+// D = T B with B_i = (F_p F_q'; F_p F_q' of the plane; w_i Phi_x X_q), so that B Sigma B' is a running sum:
+// no p x 3N matrix is ever held. Prior and sampling add their own columns.
 //
-// `feet` are the points the moments are made of: foot points, or with Projection::plain the local samples themselves.
+// `feet` are the points the moments are made of: foot points, or with Projection::plain the local samples
+// themselves.
 JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet,
                              const JointOptions& options);
 

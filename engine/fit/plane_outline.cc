@@ -71,6 +71,20 @@ Patch quad_patch(const Samples& samples, const SurfaceFit& fit, const FootPoints
                     PatchMatrix(0.5 * (cov_local + cov_local.transpose())));
 }
 
+Patch quad_of_rectangle(const Patch& rectangle) {
+  const double l_plus = rectangle.parameters[0], l_minus = rectangle.parameters[1],
+               d = std::hypot(l_plus, l_minus);
+  Boundary bound{BoundaryType::convex_quad, BoundaryVector(5)};
+  bound.d << d, d, d, d, std::atan2(l_minus, l_plus);  // Eq. (31)
+  Eigen::Matrix<double, 11, 8> J = Eigen::Matrix<double, 11, 8>::Zero();
+  J.topLeftCorner<4, 2>().rowwise() = Eigen::RowVector2d(l_plus / d, l_minus / d);
+  J.block<1, 2>(4, 0) << -l_minus / (d * d), l_plus / (d * d);
+  J.bottomRightCorner<6, 6>().setIdentity();
+  const PatchMatrix cov_local = J * *rectangle.covariance_local * J.transpose();
+  return make_patch(*find_patch_type(SurfaceType::plane, BoundaryType::convex_quad), bound, {},
+                    axes(rectangle), centre(rectangle), cov_local);
+}
+
 std::optional<PlaneDirection> soft_direction(const Samples& samples, const SurfaceFit& fit,
                                              const FootPoints& feet, const MomentVector& m) {
   constexpr double alike = 1.2;  // fitting.md section 3, step 7

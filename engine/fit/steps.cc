@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/fit/paper_steps.h"
 #include "engine/fit/plane_outline.h"
 #include "engine/fit/robust.h"
 #include "engine/fit/validate.h"
@@ -82,14 +83,28 @@ void log_bound(Workbench& work) {
   std::string sizes;
   const Boundary b = boundary(work.patch);
   for (int i = 0; i < b.d.size(); ++i) sizes += line(i == 0 ? "%.4g" : ", %.4g", b.d[i]);
-  work.log.push_back("6-9. " + std::string(name(work.type->boundary)) + " with d = " + sizes);
+  work.log.push_back("6-9. " + std::string(name(work.plan.type->boundary)) + " with d = " + sizes);
 }
 
-void bound(Workbench& work, const std::optional<PlaneDirection>& direction = std::nullopt) {
-  const Apex apex = work.options.method == FitMethod::calibrated ? Apex::over_centroid : Apex::as_fitted;
-  work.patch = bounded_patch(work.samples, work.surface, *work.type, work.moments, work.cov_joint, work.scale,
-                             apex, direction);
+bool by_paper(const Workbench& work) { return work.options.method == FitMethod::paper; }
+
+const SurfaceFit* plane_of_step_1(const Workbench& work) {
+  return work.plan.apex == Apex::by_plane ? &work.plane_fit : nullptr;
+}
+
+void bound(Workbench& work) {
+  work.patch = bounded_patch(work.samples, work.surface, work.moments, work.cov_joint, work.plan,
+                             plane_of_step_1(work));
   log_bound(work);
+}
+
+// Eq. (31): the quad of a rectangle.
+void bound_quad_by_moments(Workbench& work) {
+  const PatchTypeRow* quad = work.plan.type;
+  work.plan.type = find_patch_type(SurfaceType::plane, BoundaryType::rectangle);
+  bound(work);
+  work.patch = quad_of_rectangle(work.patch);
+  work.plan.type = quad;
 }
 
 }  // namespace
@@ -110,12 +125,17 @@ Result<Workbench> begin(const Observations& observations, const FitOptions& opti
 
 void fit_plane(Workbench& work) {
   if (work.options.robust) keep_quadric_inliers(work.samples, work.options.seed);
-  work.plane = initial_plane(work.samples);
+  if (by_paper(work)) {
+    paper_plane(work);
+  } else {
+    work.plane = initial_plane(work.samples);
+  }
   const Vector3d n = work.plane.R.col(2);
   work.log.push_back(line("1. plane by least squares: normal (%.4f, %.4f, %.4f)", n.x(), n.y(), n.z()));
 }
 
 void fit_surfaces(Workbench& work) {
+  if (by_paper(work)) return paper_surfaces(work);
   const SurfaceState quadratic = quadratic_start(work);
   const Samples inliers = work.samples;
   if (work.options.robust) std::fill(work.samples.robust.begin(), work.samples.robust.end(), 1.0);
@@ -131,6 +151,7 @@ void fit_surfaces(Workbench& work) {
 }
 
 void refine_type(Workbench& work) {
+  if (by_paper(work)) return paper_type(work);
   work.choice = choose(work.fits, work.samples.size());
   work.surface = work.fits[work.choice.best];
   SurfaceFitOptions options;
@@ -142,12 +163,13 @@ void refine_type(Workbench& work) {
     work.surface.iterations += before;
   }
   if (options.robust) flag_outliers(work.samples, work.surface);
+  work.surface_type = surface_type(work.surface);
   work.log.push_back("3. type: " + words(surface_type(work.surface)) + ", " +
                      work.choice.candidates.front().reason);
 }
 
 void choose_boundary(Workbench& work) {
-  const SurfaceType surface = surface_type(work.surface);
+  const SurfaceType surface = work.surface_type;
   BoundaryType boundary = default_boundary(surface);
   if (surface == SurfaceType::plane) {
     switch (work.options.boundary) {
@@ -166,39 +188,50 @@ void choose_boundary(Workbench& work) {
         break;
     }
   }
-  work.type = find_patch_type(surface, boundary);
-  work.scale =
+  work.plan.type = find_patch_type(surface, boundary);
+  work.plan.apex = by_paper(work) ? Apex::by_plane : Apex::over_centroid;
+  work.plan.scale =
       work.bounds == BoundsMethod::extent ? extent_scale(work.containment) : paper_scale(work.containment);
   work.log.push_back("4. boundary: " + std::string(name(boundary)) +
                      line(", containment %.4g", work.containment));
 }
 
 void project_points(Workbench& work) {
-  work.feet = foot_points(work.samples, work.surface);
+  JointOptions options;
+  if (by_paper(work)) {
+    work.feet = plain_projection(work.samples, work.surface);
+    options = {Distance::paper, Projection::plain, false,
+               work.plane_fit.A.size() > 0 ? &work.plane_fit : nullptr};
+  } else {
+    work.feet = foot_points(work.samples, work.surface);
+  }
   work.moments = moments(work.feet.x, work.feet.weight);
-  work.cov_joint = joint_covariance(work.samples, work.surface, work.feet, {});
-  work.log.push_back(line("5. %zu foot points", work.samples.size()));
+  work.cov_joint = joint_covariance(work.samples, work.surface, work.feet, options);
+  work.log.push_back(line("5. %zu points projected", work.samples.size()));
 }
 
 void bound_cylinder(Workbench& work) {
-  if (work.type->boundary == BoundaryType::rectangle && work.type->curvature_size > 0) bound(work);
+  if (work.plan.type->boundary == BoundaryType::rectangle && work.plan.type->curvature_size > 0) bound(work);
 }
 void bound_revolute(Workbench& work) {
-  if (work.type->boundary == BoundaryType::circle && work.type->curvature_size > 0) bound(work);
+  if (work.plan.type->boundary == BoundaryType::circle && work.plan.type->curvature_size > 0) bound(work);
 }
 void bound_paraboloid(Workbench& work) {
-  if (work.type->boundary == BoundaryType::ellipse && work.type->curvature_size > 0) bound(work);
+  if (work.plan.type->boundary == BoundaryType::ellipse && work.plan.type->curvature_size > 0) bound(work);
 }
 void bound_plane(Workbench& work) {
-  if (work.type->surface != SurfaceType::plane) return;
+  if (work.plan.type->surface != SurfaceType::plane) return;
   const bool extent = work.bounds == BoundsMethod::extent;
-  if (work.type->boundary == BoundaryType::convex_quad && extent) {
+  if (work.plan.type->boundary != BoundaryType::convex_quad) {
+    if (work.plan.type->boundary == BoundaryType::rectangle && extent) {
+      work.plan.direction = soft_direction(work.samples, work.surface, work.feet, work.moments);
+    }
+    bound(work);
+  } else if (extent) {
     work.patch = quad_patch(work.samples, work.surface, work.feet, work.containment);
     log_bound(work);
-  } else if (work.type->boundary == BoundaryType::rectangle && extent) {
-    bound(work, soft_direction(work.samples, work.surface, work.feet, work.moments));
   } else {
-    bound(work);
+    bound_quad_by_moments(work);
   }
 }
 
@@ -213,9 +246,10 @@ Result<FitResult> conclude(Workbench& work) {
   report.candidates = work.choice.candidates;
   report.iterations = work.surface.iterations;
   report.converged = work.surface.converged;
+  const Distance distance = by_paper(work) ? Distance::paper : Distance::exact;
   for (std::size_t i = 0; i < work.samples.size(); ++i) {
-    const Residual r = residual(Distance::exact, work.surface.model, work.surface.state, work.samples.q[i],
-                                work.samples.cov[i]);
+    const Residual r =
+        residual(distance, work.surface.model, work.surface.state, work.samples.q[i], work.samples.cov[i]);
     report.residuals.push_back(r.F);
     if (work.samples.robust[i] == 0.0) {
       report.outliers.push_back(static_cast<std::uint32_t>(i));

@@ -20,13 +20,14 @@ struct Workbench {
   double containment = 1.0;  // Gamma
   Samples samples;
 
-  SurfaceState plane;                  // step 1
-  std::vector<SurfaceFit> fits;        // step 2: one a candidate model
-  Choice choice;                       // step 3
-  SurfaceFit surface;                  //         the one that was chosen
-  const PatchTypeRow* type = nullptr;  // step 4
-  BoundaryScale scale{};
-  FootPoints feet;  // step 5
+  SurfaceState plane;            // step 1
+  SurfaceFit plane_fit;          //         refitted with covariances, in the paper's method only
+  std::vector<SurfaceFit> fits;  // step 2: one a candidate model
+  Choice choice;                 // step 3
+  SurfaceFit surface;            //         the one that was chosen
+  SurfaceType surface_type{};    //         and its name in Table I
+  PatchPlan plan;                // step 4
+  FootPoints feet;               // step 5
   MomentVector moments = MomentVector::Zero();
   JointMatrix cov_joint = JointMatrix::Zero();
   Patch patch;                   // steps 6 to 9
