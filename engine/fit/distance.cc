@@ -25,7 +25,7 @@ Residual exact_residual(const SurfaceModel& model, const Vector3d& kappa, const 
   const double s = std::sqrt(r.v);
   r.F = r.g.dot(q - foot.x) / s;
   r.F_p = J_f_chart(model, foot.x, r.g) / s;
-  r.F_q = r.g / s;
+  r.F_q = r.g / s;  // first order: sigma_i held, so that F_q S F_q' = 1
   return r;
 }
 
@@ -45,7 +45,7 @@ Residual paper_residual(const SurfaceModel& model, const Vector3d& kappa, const 
   half_v_p.segment<3>(2) = KSg.cross(q) - Sg.cross(r.g);
   half_v_p.segment<3>(5) = -KSg;
   r.F_p = J_f_chart(model, q, r.g) / s - (r.F / r.v) * half_v_p;  // Eq. (36)
-  r.F_q = r.g / s - (r.F / r.v) * KSg;
+  r.F_q = r.g / s;  // first order: sigma_i held, so that F_q S F_q' = 1
   return r;
 }
 
