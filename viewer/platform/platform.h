@@ -38,8 +38,9 @@ struct Image {
 // unwritable error where the file cannot be written; it appears whole or not at all.
 Result<void> write_png(const std::filesystem::path& file, const Image& image);
 
-// Inter, embedded; made for the present UI scale and valid until set_scale. Digits are all equally wide. The
-// glyphs: Latin, Greek, Cyrillic, superscripts, punctuation, arrows, mathematical signs and geometric shapes.
+// Inter, embedded; made for the present UI scale: asked for in every frame, not kept. Digits are all equally
+// wide. The glyphs: Latin, Greek, Cyrillic, superscripts, punctuation, arrows, mathematical signs and
+// geometric shapes.
 struct Fonts {
   ImFont* body;     // 13 px, ImGui's default font
   ImFont* small;    // 11 px: key hints, secondary numbers
@@ -55,8 +56,8 @@ struct Input {
   float mouse_x = -1.0f, mouse_y = -1.0f;  // framebuffer px; negative: outside
   std::array<bool, 3> buttons{};           // left, right, middle
   float wheel = 0.0f;                      // notches, up positive
-  std::set<int> keys;                      // codes of key.h, in [0, 512)
-  std::string text;                        // UTF-8
+  std::set<int> keys{};                    // codes of key.h, in [0, 512)
+  std::string text{};                      // UTF-8
 };
 
 class Platform {
@@ -73,17 +74,19 @@ class Platform {
   virtual void end_frame() = 0;    // renders ImGui, presents
   virtual int width() const = 0;   // framebuffer px
   virtual int height() const = 0;
-  virtual float scale() const = 0;  // UI scale
-  virtual void set_scale(
+  virtual float scale() const = 0;  // UI scale; follows the monitor where none was asked for
+  // Between frames: remakes the fonts. Styles are the caller's to scale.
+  virtual void set_scale(float scale) = 0;
       float scale) = 0;  // between frames: remakes the fonts; styles are the caller's to scale
-  virtual const Fonts& fonts() const = 0;
-  virtual void set_title(const std::string& title) = 0;
-  virtual void on_drop(std::function<void(const std::vector<std::string>&)> callback) = 0;
-  virtual void feed(const Input& input) = 0;  // for the frames from now on; a window listens to its user only
-  virtual void resize(int width, int height) = 0;  // px
-  virtual Image read_image() = 0;                  // the last finished frame
-  virtual std::string gl_renderer()
-      const = 0;  // for the about box and bug reports: "llvmpipe (LLVM 15.0.6, ...)"
+      virtual const Fonts& fonts() const = 0;
+      virtual void set_title(const std::string& title) = 0;
+      virtual void on_drop(std::function<void(const std::vector<std::string>&)> callback) = 0;
+      virtual void feed(
+          const Input& input) = 0;  // for the frames from now on; a window listens to its user only
+      virtual void resize(int width, int height) = 0;  // px
+      virtual Image read_image() = 0;                  // the last finished frame
+      virtual std::string gl_renderer()
+          const = 0;  // for the about box and bug reports: "llvmpipe (LLVM 15.0.6, ...)"
 };
 
 // The error names what is missing (no display, no GL 3.3) and what to do. One platform at a time: ImGui's and

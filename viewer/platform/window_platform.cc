@@ -31,7 +31,8 @@ std::string glfw_reason() {
   return reason != nullptr ? reason : "no reason given";
 }
 
-// GLFW and one window with a current OpenGL 3.3 core context.
+// One window with a current OpenGL 3.3 core context. GLFW stays initialised for the whole process: its end
+// would unload the graphics driver, which not every driver takes well.
 class Window {
  public:
   Window() = default;
@@ -39,12 +40,10 @@ class Window {
   Window& operator=(const Window&) = delete;
   ~Window() {
     if (window_ != nullptr) glfwDestroyWindow(window_);
-    if (initialised_) glfwTerminate();
   }
 
   Result<void> open(const PlatformOptions& options) {
-    initialised_ = glfwInit() == GLFW_TRUE;
-    if (!initialised_)
+    if (glfwInit() != GLFW_TRUE)
       return Error{ErrorCode::usage, "No window can be opened (" + glfw_reason() +
                                          "); start the viewer in a desktop session, or with --headless."};
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -63,7 +62,6 @@ class Window {
   GLFWwindow* get() const { return window_; }
 
  private:
-  bool initialised_ = false;
   GLFWwindow* window_ = nullptr;
 };
 
@@ -77,6 +75,7 @@ class WindowPlatform : public Platform {
  public:
   WindowPlatform(std::unique_ptr<Window> window, const PlatformOptions& options)
       : window_(std::move(window)),
+        follows_monitor_(options.scale <= 0.0f),
         frame_(options.scale > 0.0f ? options.scale : monitor_scale(handle()), options.samples) {
     glfwSetWindowUserPointer(handle(), this);
     glfwSetDropCallback(handle(), &WindowPlatform::drop);
@@ -97,6 +96,7 @@ class WindowPlatform : public Platform {
   void wake() override { glfwPostEmptyEvent(); }
   void begin_frame() override {
     measure();
+    if (follows_monitor_) frame_.set_scale(monitor_scale(handle()));
     ImGui_ImplGlfw_NewFrame();
     mouse_to_framebuffer();
     frame_.begin(width_, height_);
@@ -109,7 +109,10 @@ class WindowPlatform : public Platform {
   int width() const override { return width_; }
   int height() const override { return height_; }
   float scale() const override { return frame_.scale(); }
-  void set_scale(float scale) override { frame_.set_scale(scale); }
+  void set_scale(float scale) override {
+    follows_monitor_ = false;
+    frame_.set_scale(scale);
+  }
   const Fonts& fonts() const override { return frame_.fonts(); }
   void set_title(const std::string& title) override { glfwSetWindowTitle(handle(), title.c_str()); }
   void on_drop(std::function<void(const std::vector<std::string>&)> callback) override {
@@ -146,6 +149,7 @@ class WindowPlatform : public Platform {
   }
 
   std::unique_ptr<Window> window_;
+  bool follows_monitor_;
   GuiFrame frame_;
   std::function<void(const std::vector<std::string>&)> dropped_;
   int width_ = 1, height_ = 1;    // framebuffer px
