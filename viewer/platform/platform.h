@@ -27,8 +27,8 @@ struct PlatformOptions {
   int width = 1440, height = 900;  // px
   bool headless = false;
   float scale = 0.0f;  // UI scale; 0: from the monitor (1 where headless)
-  int samples =
-      -1;  // of antialiasing; -1: 4, none where OpenGL is software (it takes three times as long there)
+  // Of antialiasing; -1: 4, but none where OpenGL is software, which takes three times as long with them.
+  int samples = -1;
 };
 
 struct Image {
@@ -74,19 +74,19 @@ class Platform {
   virtual void end_frame() = 0;    // renders ImGui, presents
   virtual int width() const = 0;   // framebuffer px
   virtual int height() const = 0;
-  virtual float scale() const = 0;  // UI scale; follows the monitor where none was asked for
+  virtual void resize(int width, int height) = 0;  // px, for the frames from now on
+  virtual float scale() const = 0;                 // of the UI; follows the monitor where none was asked for
   // Between frames: remakes the fonts. Styles are the caller's to scale.
   virtual void set_scale(float scale) = 0;
-      float scale) = 0;  // between frames: remakes the fonts; styles are the caller's to scale
-      virtual const Fonts& fonts() const = 0;
-      virtual void set_title(const std::string& title) = 0;
-      virtual void on_drop(std::function<void(const std::vector<std::string>&)> callback) = 0;
-      virtual void feed(
-          const Input& input) = 0;  // for the frames from now on; a window listens to its user only
-      virtual void resize(int width, int height) = 0;  // px
-      virtual Image read_image() = 0;                  // the last finished frame
-      virtual std::string gl_renderer()
-          const = 0;  // for the about box and bug reports: "llvmpipe (LLVM 15.0.6, ...)"
+  virtual const Fonts& fonts() const = 0;
+  virtual void set_title(const std::string& title) = 0;
+  virtual void on_drop(std::function<void(const std::vector<std::string>&)> callback) = 0;
+  // For the frames from now on. A window listens to its user only.
+  virtual void feed(const Input& input) = 0;
+  // The last finished frame.
+  virtual Image read_image() = 0;
+  // What draws, for bug reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
+  virtual std::string gl_renderer() const = 0;
 };
 
 // The error names what is missing (no display, no GL 3.3) and what to do. One platform at a time: ImGui's and
