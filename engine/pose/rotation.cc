@@ -12,6 +12,7 @@ namespace patchlab {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double longest_canonical = pi * (1.0 + 1e-15);  // a vector of length pi must survive its own rounding
 
 double length(const Vector3d& v) { return std::hypot(v.x(), v.y(), v.z()); }
 
@@ -137,7 +138,7 @@ Matrix3d J_Rtv_r(const Vector3d& r, const Vector3d& v) {
 
 Reparametrised canonical(const Vector3d& r) {
   const double t = length(r);
-  if (t <= pi) return {r, Matrix3d::Identity()};
+  if (t <= longest_canonical) return {r, Matrix3d::Identity()};
   return rescaled(r, t, std::remainder(t, 2.0 * pi));
 }
 
