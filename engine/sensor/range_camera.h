@@ -1,13 +1,12 @@
-// A simulated range camera: the one source of synthetic truth for tests, benchmarks, `patchlab simulate`, the sample
-// scan and the pictures. It takes a ray -> hit function and knows no scene.
+// A simulated range camera: the one source of synthetic truth for tests, benchmarks, `patchlab simulate`, the
+// sample scan and the pictures. It takes a ray -> hit function and knows no scene.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <optional>
 
-#include "engine/base/random.h"
-#include "engine/pose/pose.h"
 #include "engine/scan/scan.h"
 #include "engine/sensor/noise_model.h"
 
@@ -25,10 +24,16 @@ struct Hit {
   double s;
   std::uint32_t object;
 };
-using CastRay = std::function<std::optional<Hit>(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)>;
+using CastRay =
+    std::function<std::optional<Hit>(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)>;
 
-// An organised scan, row by row, in the world frame, viewpoint stated; pixels without a return are NaN. Labels: object
-// index + 1, 0 where nothing is. Noise is drawn from the model's covariance at the true point. colours are left empty.
+// The direction of a pixel in the sensor frame, z = 1: a hit at s lies at depth s.
+Eigen::Vector3d pixel_direction(const Camera& camera, std::uint32_t column, std::uint32_t row);
+
+// An organised scan, row by row, in the world frame, viewpoint stated; pixels without a return are NaN.
+// Labels: object index + 1, 0 where nothing is. Noise is drawn from the model's covariance at the true point
+// (precondition: the model is not from_file); the draw of a pixel depends on the seed and the pixel alone,
+// not on what else is seen. Colours are left empty.
 Scan simulate_scan(const Camera& camera, const CastRay& cast, const NoiseModel& noise, std::uint64_t seed);
 
 }  // namespace patchlab

@@ -7,7 +7,7 @@
 
 #include "engine/patch/patch.h"
 
-namespace patchlab {
+namespace patchlab::test {
 
 struct SamplePatch {
   std::string label;
@@ -58,4 +58,4 @@ inline std::vector<SamplePatch> sample_patches() {
   return samples;
 }
 
-}  // namespace patchlab
+}  // namespace patchlab::test

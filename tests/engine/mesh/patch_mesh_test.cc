@@ -11,6 +11,10 @@
 namespace patchlab {
 namespace {
 
+using test::sample_patch;
+using test::sample_patches;
+using test::SamplePatch;
+
 constexpr int resolutions[] = {1, 2, 3, 8, 32};
 
 Vector3d point(const TriangleMesh& mesh, OpenMesh::VertexHandle vertex) {
