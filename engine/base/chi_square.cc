@@ -28,6 +28,7 @@ double two_sided_normal_quantile(double probability) {
 }
 
 double log_normal_cdf(double x) {
+  if (x > 0.0) return std::log1p(-0.5 * std::erfc(x / std::numbers::sqrt2));
   if (x > -30.0) return std::log(0.5 * std::erfc(-x / std::numbers::sqrt2));
   const double inverse_square = 1.0 / (x * x);
   return -0.5 * x * x - std::log(-x) - 0.5 * std::log(2.0 * std::numbers::pi) +

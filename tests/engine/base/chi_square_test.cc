@@ -2,41 +2,71 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/special_functions/erf.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
-namespace patchlab {
+namespace patchlab::test {
 namespace {
 
-TEST(ChiSquare, QuantilesAreThoseOfTheTables) {
-  const double table_95[] = {3.8415,  5.9915,  7.8147,  9.4877,  11.0705, 12.5916,
-                             14.0671, 15.5073, 16.9190, 18.3070, 19.6751};
-  double dof = 0.0;
-  for (const double expected : table_95)
-    EXPECT_NEAR(chi_square_quantile(0.95, dof += 1.0), expected, 5e-5) << dof;
+using Exact = boost::multiprecision::cpp_bin_float_50;
+
+double exact_log_normal_cdf(double x) {
+  return static_cast<double>(log(boost::math::erfc(-Exact(x) / sqrt(Exact(2))) / 2));
 }
 
-TEST(ChiSquare, CdfAndTailAndQuantileFitTogether) {
-  for (const double x : {0.5, 3.0, 40.0}) {
-    EXPECT_NEAR(chi_square_cdf(x, 5.0) + chi_square_p_value(x, 5.0), 1.0, 1e-14);
-    EXPECT_NEAR(chi_square_quantile(chi_square_cdf(x, 5.0), 5.0), x, 1e-6 * x);
+TEST(ChiSquare, QuantilesAreThoseOfThePrintedTables) {
+  EXPECT_NEAR(chi_square_quantile(0.95, 1), 3.841458820694124, 1e-12);
+  EXPECT_NEAR(chi_square_quantile(0.95, 3), 7.814727903251179, 1e-12);
+  EXPECT_NEAR(chi_square_quantile(0.99, 10), 23.209251158954356, 1e-11);
+  EXPECT_EQ(chi_square_quantile(0.0, 3), 0.0);
+}
+
+TEST(ChiSquare, TwoDegreesOfFreedomAreExponential) {
+  for (const double x : {0.0, 0.1, 2.0, 20.0}) {
+    EXPECT_NEAR(chi_square_cdf(x, 2), 1.0 - std::exp(-0.5 * x), 1e-15);
+    EXPECT_NEAR(chi_square_p_value(x, 2), std::exp(-0.5 * x), 1e-15);
   }
-  EXPECT_NEAR(chi_square_p_value(200.0, 2.0) / std::exp(-100.0), 1.0, 1e-10)
-      << "the tail is exact where it is tiny";
 }
 
-TEST(ChiSquare, EllipsoidsAndIntervalsHaveTheUsualScales) {
-  EXPECT_NEAR(ellipsoid_scale(0.95, 3), 2.7955, 5e-5);
+TEST(ChiSquare, PValueIsAccurateInTheFarTail) {
+  EXPECT_NEAR(chi_square_p_value(600.0, 2) / std::exp(-300.0), 1.0, 1e-12);
+  EXPECT_GT(chi_square_p_value(1200.0, 300), 0.0);
+}
+
+TEST(ChiSquare, QuantileUndoesTheCdf) {
+  for (const double dof : {1.0, 3.0, 146.0, 1e4}) {
+    EXPECT_NEAR(chi_square_cdf(chi_square_quantile(0.3, dof), dof), 0.3, 1e-12);
+  }
+}
+
+TEST(ChiSquare, EllipsoidScales) {
+  EXPECT_NEAR(ellipsoid_scale(0.95, 3), 2.7954834829151074, 1e-12);
+  EXPECT_NEAR(ellipsoid_scale(0.95, 2), std::sqrt(-2.0 * std::log(0.05)), 1e-12);
   EXPECT_NEAR(ellipsoid_scale(0.95, 1), two_sided_normal_quantile(0.95), 1e-12);
-  EXPECT_NEAR(two_sided_normal_quantile(0.95), 1.959964, 5e-7);
 }
 
-TEST(LogNormalCdf, IsFiniteAndSmoothFarInTheTail) {
-  EXPECT_NEAR(log_normal_cdf(0.0), std::log(0.5), 1e-15);
-  EXPECT_NEAR(log_normal_cdf(-10.0), -53.23128515051247, 1e-12);
-  EXPECT_NEAR(log_normal_cdf(-30.0 + 1e-9), log_normal_cdf(-30.0 - 1e-9), 1e-6)
-      << "where the series takes over";
-  EXPECT_NEAR(log_normal_cdf(-1e5), -5.0e9 - std::log(1e5) - 0.918938533204673, 1e-5);
+TEST(NormalDistribution, TwoSidedQuantile) {
+  EXPECT_NEAR(two_sided_normal_quantile(0.95), 1.959963984540054, 1e-12);
+  EXPECT_NEAR(two_sided_normal_quantile(0.6826894921370859), 1.0, 1e-12);
+  EXPECT_EQ(two_sided_normal_quantile(0.0), 0.0);
+}
+
+TEST(NormalDistribution, LogCdfIsExactDownIntoTheTail) {
+  for (const double x : {8.0, 3.0, 0.0, -1.0, -5.0, -20.0, -29.9, -30.1, -35.0, -100.0}) {
+    EXPECT_NEAR(log_normal_cdf(x) / exact_log_normal_cdf(x), 1.0, 1e-9) << x;
+  }
+}
+
+TEST(NormalDistribution, LogCdfIsFiniteAndIncreasingEverywhere) {
+  double before = log_normal_cdf(-1e6);
+  EXPECT_TRUE(std::isfinite(before));
+  for (double x = -40.0; x < 5.0; x += 0.125) {
+    const double now = log_normal_cdf(x);
+    EXPECT_GT(now, before) << x;
+    before = now;
+  }
 }
 
 }  // namespace
-}  // namespace patchlab
+}  // namespace patchlab::test
