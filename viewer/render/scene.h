@@ -37,7 +37,7 @@ struct MeshVertex {
 };
 struct MeshItem {
   Shared<MeshVertex> vertices;
-  Shared<std::uint32_t> triangles;  // three a triangle
+  Shared<std::uint32_t> triangles;  // three a triangle, anticlockwise seen from outside
   bool lit = true;
 };
 
