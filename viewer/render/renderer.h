@@ -1,5 +1,6 @@
-// Draws a scene with OpenGL 3.3 core into the bound framebuffer. A current GL context is required for its
-// whole life.
+// Draws a scene with OpenGL 3.3 core into the bound framebuffer (RGBA8, 24 bits of depth). A current GL
+// context is required for its whole life. Where OpenGL is software and the framebuffer not multisampled, the
+// processor draws the points. Colours are sRGB and blended as such.
 #pragma once
 
 #include <memory>
