@@ -139,7 +139,7 @@ FootPoints foot_points(const Samples& samples, const SurfaceFit& fit) {
       const Vector3d n = r.g.normalized();
       const Vector3d from_camera = fit.state.c + fit.state.R * r.x - samples.viewpoint(i);
       const Vector3d ray = from_camera.normalized();
-      const double depth = axis->dot(from_camera), cos_psi = axis->dot(ray);
+      const double depth = axis->dot(from_camera), cos_psi = std::abs(axis->dot(ray));
       const double facing = std::max(std::abs(n.dot(fit.state.R.transpose() * ray)), least_cosine);
       weight *= depth * depth * cos_psi * std::abs(n.z()) / facing;  // fitting.md section 7
     }
