@@ -7,10 +7,15 @@
 namespace patchlab {
 namespace {
 
+double k_rho2(const Vector2d& u, const Vector3d& k3) {
+  return k3.x() * u.x() * u.x() + k3.y() * u.y() * u.y();
+}
+
 // 1 - kappa z on the surface above u: the z component of the outward normal -g/2. 1 for paraboloids.
 double slope_root(const Vector2d& u, const Vector3d& k3) {
-  if (k3.z() == 0.0) return 1.0;
-  const double a = std::sqrt(std::max(0.0, k3.z() * (k3.x() * u.x() * u.x() + k3.y() * u.y() * u.y())));
+  const double a2 = k3.z() * k_rho2(u, k3);
+  if (a2 <= 0.0) return std::sqrt(1.0 - a2);
+  const double a = std::sqrt(a2);
   return std::sqrt(std::max(0.0, 1.0 - a) * (1.0 + a));  // errata D6
 }
 
@@ -42,8 +47,7 @@ SurfaceDerivatives derivatives(const Vector3d& q_world, const Vector3d& k3, cons
 }
 
 double height(const Vector2d& u, const Vector3d& k3) {
-  const double k_rho2 = k3.x() * u.x() * u.x() + k3.y() * u.y() * u.y();
-  return k_rho2 / (1.0 + slope_root(u, k3));  // Eqs. (13), (23), (27), errata section 5
+  return k_rho2(u, k3) / (1.0 + slope_root(u, k3));  // Eqs. (13), (23), (27), errata section 5
 }
 
 Eigen::RowVector2d J_height_u(const Vector2d& u, const Vector3d& k3) {
