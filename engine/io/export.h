@@ -11,8 +11,8 @@
 namespace patchlab {
 
 struct ExportFormat {
-  std::string_view name;         // "patch_set", "ply"
-  std::string_view extension;    // ".json"
+  std::string_view name;       // "patch_set", "ply"
+  std::string_view extension;  // ".json"
   std::string_view description;
   Result<std::string> (*write)(const PatchSet& set);
 };

@@ -1,0 +1,128 @@
+#include "engine/io/scene.h"
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <set>
+
+#include "engine/io/patch_json.h"
+
+namespace patchlab {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t largest_side = 1 << 13;  // px
+
+Camera camera_from_json(const JsonPlace& place) {
+  Camera camera;
+  camera.width = static_cast<std::uint32_t>(place["width"].whole_number(largest_side));
+  camera.height = static_cast<std::uint32_t>(place["height"].whole_number(largest_side));
+  camera.fx = place["fx"].number();
+  camera.fy = place["fy"].number();
+  camera.cx = place["cx"].number();
+  camera.cy = place["cy"].number();
+  camera.pose = viewpoint_from_json(place["pose"]);
+  if (camera.width == 0 || camera.height == 0) place.fail("has no pixels");
+  if (camera.fx <= 0.0 || camera.fy <= 0.0) place.fail("has a focal length (fx, fy) that is not positive");
+  return camera;
+}
+
+SceneObject object_from_json(const JsonPlace& unnamed) {
+  SceneObject object;
+  object.name = unnamed["name"].text();
+  if (object.name.empty()) unnamed["name"].fail("is empty");
+  const JsonPlace place = unnamed.called("object \"" + object.name + "\"");
+  if (place.find("mesh")) place.fail("is a mesh, which cannot be simulated yet; describe it by patches");
+  object.patch = patch_from_json(place["patch"]);
+  return object;
+}
+
+void check_heading(const JsonPlace& root) {
+  const JsonPlace format = root["format"], version = root["version"];
+  if (format.text() != "patchlab.scene") format.fail("is not \"patchlab.scene\"");
+  if (const double number = version.number(); root.ok() && !(number >= 1.0 && number < 2.0)) {
+    version.fail(version.value().dump() + " is not one that this program reads, which is 1");
+  }
+}
+
+// A patch with a ball around it, which most rays miss. Away from the centre c both the distance in the plane
+// and the height grow, so the corner of the box around the boundary bounds the distance of every point.
+struct Target {
+  Patch patch;
+  Vector3d centre;
+  double squared_radius;
+};
+
+Target target(const Patch& patch) {
+  const Vector2d half = extent(boundary(patch));
+  const Vector3d k = k3(patch).cwiseAbs();
+  const double highest =
+      k.x() * half.x() * half.x() + k.y() * half.y() * half.y();  // at least |z|: k rho^2/(1 + w), w >= 0
+  return {patch, centre(patch), half.squaredNorm() + highest * highest};
+}
+
+bool passes(const Target& target, const Vector3d& origin, const Vector3d& direction) {
+  const Vector3d to_centre = target.centre - origin;
+  const double length2 = direction.squaredNorm();
+  return to_centre.cross(direction).squaredNorm() <= target.squared_radius * length2;
+}
+
+}  // namespace
+
+Result<SceneDescription> read_scene(std::string_view text, const std::string& name) {
+  const Result<json> parsed = parse_json(text, name);
+  if (!parsed) return parsed.error();
+  std::optional<Error> error;
+  const JsonPlace root(*parsed, name, error);
+  check_heading(root);
+  SceneDescription scene;
+  scene.camera = camera_from_json(root["camera"]);
+  if (const auto noise = root.find("noise")) scene.noise = noise->text();
+  std::set<std::string> names;
+  for (const JsonPlace& place : root["objects"].items()) {
+    scene.objects.push_back(object_from_json(place));
+    if (!names.insert(scene.objects.back().name).second) place["name"].fail("is taken by an earlier object");
+  }
+  if (error) return *error;
+  return scene;
+}
+
+CastRay cast_ray(const SceneDescription& scene) {
+  auto targets = std::make_shared<std::vector<Target>>();
+  for (const SceneObject& object : scene.objects) targets->push_back(target(object.patch));
+  return [targets](const Vector3d& origin, const Vector3d& direction) -> std::optional<Hit> {
+    std::optional<Hit> nearest;
+    for (std::uint32_t i = 0; i < targets->size(); ++i) {
+      const Target& candidate = (*targets)[i];
+      if (!passes(candidate, origin, direction)) continue;
+      const std::optional<double> s = ray_hit(candidate.patch, origin, direction);
+      if (s && (!nearest || *s < nearest->s)) nearest = Hit{*s, i};
+    }
+    return nearest;
+  };
+}
+
+PatchSet truth(const SceneDescription& scene) {
+  PatchSet set;
+  for (const SceneObject& object : scene.objects) {
+    PatchRecord record;
+    record.id = record.name = object.name;
+    record.frame_id = "world";
+    record.patch = object.patch;
+    set.patches.push_back(std::move(record));
+  }
+  return set;
+}
+
+Result<SimulatedScene> simulate(const SceneDescription& scene, std::string_view noise, std::uint64_t seed) {
+  const Result<NoiseModel> model = noise_model(noise.empty() ? std::string_view(scene.noise) : noise);
+  if (!model) return model.error();
+  if (model->from_file()) {
+    return Error{ErrorCode::usage,
+                 "The noise model from_file needs a scan with covariances; a simulation needs another "
+                 "one (patchlab help noise lists them)."};
+  }
+  return SimulatedScene{simulate_scan(scene.camera, cast_ray(scene), *model, seed), truth(scene)};
+}
+
+}  // namespace patchlab
