@@ -1,0 +1,135 @@
+// The JSON Schemas of assets/schema accept the contracts and what patchlab writes, and refuse what it
+// refuses.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "engine/base/file.h"
+#include "engine/io/patch_set.h"
+#include "tests/engine/io/sample_set.h"
+
+namespace patchlab {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path top = PATCHLAB_SOURCE_DIR;
+
+json read_json(const std::filesystem::path& file) {
+  const Result<Bytes> bytes = read_file(file);
+  if (bytes) return json::parse(as_text(*bytes));
+  ADD_FAILURE() << bytes.error().message;
+  return {};
+}
+
+// What a schema says against a document; empty where it accepts it.
+std::string complaints(const std::string& schema_name, const json& document) {
+  using Adapter = valijson::adapters::NlohmannJsonAdapter;
+  const json schema_json = read_json(top / "assets/schema" / (schema_name + ".schema.json"));
+  valijson::Schema schema;
+  valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(schema_json), schema);
+  valijson::ValidationResults results;
+  valijson::Validator(valijson::Validator::kStrongTypes).validate(schema, Adapter(document), &results);
+  std::string text;
+  for (valijson::ValidationResults::Error error; results.popError(error);) {
+    for (const std::string& step : error.context) text += step;
+    text += ": " + error.description + "\n";
+  }
+  return text;
+}
+
+struct Contract {
+  const char* file;
+  const char* schema;
+};
+constexpr Contract contracts[] = {
+    {"patch_set.json", "patch_set"}, {"scene.json", "scene"},
+    {"info.json", "info"},           {"chain.json", "chain"},
+    {"chain.out.json", "chain.out"}, {"region.json", "region"},
+    {"joints.json", "joints"},       {"robot_patches.json", "robot_patches"},
+};
+
+class SchemaOfContract : public testing::TestWithParam<Contract> {
+ protected:
+  std::filesystem::path file() const { return top / "../shared/contracts" / GetParam().file; }
+};
+
+TEST_P(SchemaOfContract, AcceptsIt) {
+  if (!std::filesystem::exists(file())) GTEST_SKIP() << "the contracts are not beside this checkout";
+  EXPECT_EQ(complaints(GetParam().schema, read_json(file())), "");
+}
+
+TEST_P(SchemaOfContract, MissesEachOfItsRequiredMembers) {
+  if (!std::filesystem::exists(file())) GTEST_SKIP() << "the contracts are not beside this checkout";
+  const json required =
+      read_json(top / "assets/schema" / (std::string(GetParam().schema) + ".schema.json"))["required"];
+  ASSERT_FALSE(required.empty());
+  for (const std::string member : required) {
+    json document = read_json(file());
+    document.erase(member);
+    EXPECT_NE(complaints(GetParam().schema, document), "") << member;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Contracts, SchemaOfContract, testing::ValuesIn(contracts), [](const auto& contract) {
+  std::string label = contract.param.schema;
+  std::ranges::replace(label, '.', '_');
+  return label;
+});
+
+TEST(Schema, AcceptsEveryLineOfTheJournalContract) {
+  const std::filesystem::path file = top / "../shared/contracts/journal.jsonl";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the contracts are not beside this checkout";
+  std::istringstream lines{std::string(as_text(*read_file(file)))};
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    EXPECT_EQ(complaints("journal", json::parse(line)), "") << line;
+  }
+  EXPECT_EQ(count, 7);
+}
+
+TEST(Schema, RefusesAJournalLineThatDoesNothingKnown) {
+  EXPECT_NE(complaints("journal", {{"do", "dance"}}), "");
+  EXPECT_NE(complaints("journal", {{"do", "rename"}, {"target", "patch-1"}}), "");
+  EXPECT_NE(complaints("journal", {{"do", "select"}, {"region", "r"}, {"scan", "s"}, {"mode", "set"}}), "");
+}
+
+TEST(Schema, AcceptsThePatchSetsThatAreWritten) {
+  EXPECT_EQ(complaints("patch_set", json::parse(*write_patch_set(test::sample_set()))), "");
+  EXPECT_EQ(complaints("patch_set", json::parse(*write_patch_set(test::designed_set()))), "");
+  EXPECT_EQ(complaints("patch_set", json::parse(*write_patch_set({}))), "");
+}
+
+TEST(Schema, HoldsEachPatchToTheParametersOfItsType) {
+  json document = json::parse(*write_patch_set(test::sample_set()));
+  const json patches = document["patches"];
+  const auto complaints_of = [&](const json& patch) {
+    document["patches"] = json::array({patch});
+    return complaints("patch_set", document);
+  };
+  for (const json& patch : patches) {
+    json other_name = patch, one_more = patch, other_pair = patch;
+    other_name["parameters"]["names"][0] = "c_x";
+    one_more["parameters"]["values"].push_back(0.0);
+    other_pair["boundary"] = patch["boundary"] == "circle" ? "rectangle" : "circle";
+    EXPECT_EQ(complaints_of(patch), "");
+    EXPECT_NE(complaints_of(other_name), "");
+    EXPECT_NE(complaints_of(one_more), "");
+    EXPECT_NE(complaints_of(other_pair), "");
+  }
+}
+
+TEST(Schema, AcceptsTheSampleScene) {
+  EXPECT_EQ(complaints("scene", read_json(top / "assets/rock_field.scene.json")), "");
+  EXPECT_EQ(complaints("patch_set", read_json(top / "assets/rock_field.truth.json")), "");
+}
+
+}  // namespace
+}  // namespace patchlab
