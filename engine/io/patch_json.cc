@@ -127,7 +127,8 @@ Matrix6d ros_fixed_axes_covariance(const Patch& patch) {
   if (type.revolute()) cov_local(5, 5) = spin_variance;
   Matrix6d J_ros_local = Matrix6d::Zero();
   J_ros_local.topLeftCorner<3, 3>() = J_ros_local.bottomRightCorner<3, 3>() = axes(patch);
-  return J_ros_local * cov_local * J_ros_local.transpose();
+  const Matrix6d cov_ros = J_ros_local * cov_local * J_ros_local.transpose();
+  return 0.5 * (cov_ros + cov_ros.transpose());
 }
 
 }  // namespace patchlab

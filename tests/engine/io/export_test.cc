@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <OpenMesh/Core/IO/MeshIO.hh>
 #include <cstring>
 #include <map>
 #include <sstream>
 
+#include "engine/io/export_ply.h"
 #include "engine/mesh/patch_mesh.h"
 #include "engine/patch/marginals.h"
 #include "tests/engine/io/sample_set.h"
@@ -121,6 +123,22 @@ TEST(ExportPly, TurnsEachTriangleOutwardWithinOnePatch) {
     EXPECT_EQ(va.patch, vb.patch);
     EXPECT_EQ(va.patch, vc.patch);
     EXPECT_GT((vb.point - va.point).cross(vc.point - va.point).dot(va.normal), 0.0);
+  }
+}
+
+TEST(ExportPly, IsReadByOpenMesh) {
+  const std::string bytes = *write_ply(test::sample_set());
+  std::istringstream stream(bytes);
+  OpenMesh::IO::Options options(OpenMesh::IO::Options::VertexNormal);
+  TriangleMesh mesh;
+  mesh.request_vertex_normals();
+  ASSERT_TRUE(OpenMesh::IO::read_mesh(mesh, stream, ".ply", options));
+  const Ply ply = read_ply(bytes);
+  ASSERT_EQ(mesh.n_vertices(), ply.vertices.size());
+  EXPECT_EQ(mesh.n_faces(), ply.faces.size());
+  for (const auto vertex : mesh.vertices()) {
+    const Vector3d point = Vector3d::Map(mesh.point(vertex).data());
+    EXPECT_LT((point - ply.vertices[static_cast<std::size_t>(vertex.idx())].point).norm(), 1e-6);
   }
 }
 

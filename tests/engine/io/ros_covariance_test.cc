@@ -34,6 +34,7 @@ TEST(RosCovariance, SaysThatTheSpinOfARevolutePatchIsUnknown) {
     const Vector3d z = axes(record.patch).col(2);
     EXPECT_NEAR(z.dot(cov.bottomRightCorner<3, 3>() * z), std::numbers::pi * std::numbers::pi / 3.0, 1e-12);
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(cov).eigenvalues()[0], 0.0);
+    EXPECT_EQ(cov, cov.transpose());
   }
 }
 
