@@ -31,8 +31,9 @@ class SurfaceProblem {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       if (samples_.robust[i] == 0.0) continue;
       const Residual r = residual(options_.distance, model_, state, samples_.q[i], samples_.cov[i]);
-      const double weight = options_.robust ? tukey_weight(r.F) : 1.0;
-      cost += options_.robust ? tukey_loss(r.F) : r.F * r.F;
+      const double scale = options_.robust_scale;
+      const double weight = options_.robust ? tukey_weight(r.F / scale) : 1.0;
+      cost += options_.robust ? scale * scale * tukey_loss(r.F / scale) : r.F * r.F;
       A.noalias() += weight * r.F_p * r.F_p.transpose();
       b.noalias() += weight * r.F * r.F_p;
     }

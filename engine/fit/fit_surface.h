@@ -34,7 +34,8 @@ struct SurfaceFit {
 
 struct SurfaceFitOptions {
   Distance distance = Distance::exact;
-  bool robust = false;  // Tukey's loss, 4.685 standard deviations
+  bool robust = false;        // Tukey's loss, 4.685 standard deviations
+  double robust_scale = 1.0;  // what counts as a standard deviation there, in those of the noise model
   LeastSquaresOptions solver;
 };
 

@@ -50,9 +50,24 @@ void keep_quadric_inliers(Samples& samples, std::uint64_t seed) {
   }
 }
 
-void flag_outliers(Samples& samples, const SurfaceFit& fit) {
+double robust_scale(const Samples& samples, const SurfaceFit& fit) {
+  constexpr double median_of_normal = 0.6745, holds = 0.8, least = 0.2;
+  std::vector<double> sizes;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double F = residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]).F;
+    if (samples.robust[i] == 0.0) continue;
+    sizes.push_back(
+        std::abs(residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]).F));
+  }
+  if (sizes.empty()) return 1.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double scale = *middle / median_of_normal;
+  return scale > holds ? 1.0 : std::max(scale, least);
+}
+
+void flag_outliers(Samples& samples, const SurfaceFit& fit, double scale) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double F = residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]).F / scale;
     samples.robust[i] = std::abs(F) > flag_limit ? 0.0 : tukey_weight(F);
   }
 }

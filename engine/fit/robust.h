@@ -11,9 +11,13 @@ namespace patchlab {
 // become 1 for its inliers and 0 for the rest. Seeded: the same points and seed give the same weights.
 void keep_quadric_inliers(Samples& samples, std::uint64_t seed);
 
-// Robust weights after a fit with Tukey's loss: 0 for points beyond 3.5 standard deviations (flagged, never
-// counted for bounds), Tukey's own for the rest.
-void flag_outliers(Samples& samples, const SurfaceFit& fit);
+// How large residuals are in units of the noise model, by their median: 1 where the model holds, less where
+// it says too much noise (then outliers would hide in it). In [0.2, 1]; values above 0.8 count as 1.
+double robust_scale(const Samples& samples, const SurfaceFit& fit);
+
+// Robust weights after a fit with Tukey's loss: 0 for points beyond 3.5 times `scale` standard deviations
+// (flagged, never counted for bounds), Tukey's own for the rest.
+void flag_outliers(Samples& samples, const SurfaceFit& fit, double scale);
 
 inline constexpr double flag_limit = 3.5;  // standard deviations
 

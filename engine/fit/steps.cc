@@ -40,7 +40,7 @@ Result<void> check_options(const Workbench& work) {
 
 // The 2-jet over the centroid: every candidate resembles it, so the noise is re-evaluated on it before they
 // are fitted.
-SurfaceState quadratic_start(Workbench& work) {
+SurfaceFit quadratic_fit(Workbench& work) {
   Samples& samples = work.samples;
   const SurfaceModel two_jet = fixed_centre(surface_model(ModelKind::paraboloid));
   const SurfaceState start = height_field(samples, work.plane);
@@ -48,7 +48,8 @@ SurfaceState quadratic_start(Workbench& work) {
   for (int pass = 0; pass < 2 && reevaluate_noise(samples, fit); ++pass) {
     fit = fit_surface(samples, two_jet, fit.state, {});
   }
-  return std::isfinite(fit.cost) ? fit.state : start;
+  if (!std::isfinite(fit.cost)) fit.state = start;
+  return fit;
 }
 
 // One candidate: the best of its starts, a paraboloid's with the prior of its vertex.
@@ -64,10 +65,11 @@ SurfaceFit fit_model(const Samples& samples, const SurfaceModel& model, const Su
 
 // Tukey's fit over all points, from the fit of the inliers.
 SurfaceFit fit_robustly(const Samples& all, const Samples& inliers, const SurfaceModel& model,
-                        const SurfaceState& quadratic) {
+                        const SurfaceState& quadratic, double scale) {
   const SurfaceFit start = fit_model(inliers, model, quadratic);
   SurfaceFitOptions tukey;
   tukey.robust = true;
+  tukey.robust_scale = scale;
   SurfaceFit fit = fit_surface(all, model, start.state, tukey, start.prior);
   fit.iterations += start.iterations;
   return fit;
@@ -136,13 +138,16 @@ void fit_plane(Workbench& work) {
 
 void fit_surfaces(Workbench& work) {
   if (by_paper(work)) return paper_surfaces(work);
-  const SurfaceState quadratic = quadratic_start(work);
+  const SurfaceFit two_jet = quadratic_fit(work);
+  const SurfaceState& quadratic = two_jet.state;
+  work.robust_scale = work.options.robust ? robust_scale(work.samples, two_jet) : 1.0;
   const Samples inliers = work.samples;
   if (work.options.robust) std::fill(work.samples.robust.begin(), work.samples.robust.end(), 1.0);
   for (const ModelKind kind : candidate_models(work.options.surface, work.samples.size())) {
     const SurfaceModel& model = surface_model(kind);
-    work.fits.push_back(work.options.robust ? fit_robustly(work.samples, inliers, model, quadratic)
-                                            : fit_model(work.samples, model, quadratic));
+    work.fits.push_back(work.options.robust
+                            ? fit_robustly(work.samples, inliers, model, quadratic, work.robust_scale)
+                            : fit_model(work.samples, model, quadratic));
     const SurfaceFit& fit = work.fits.back();
     work.log.push_back("2. " + words(surface_type(fit)) +
                        line(": chi-square %.2f after %d iterations, curvature (%.4g, %.4g) 1/m", fit.chi2,
@@ -156,13 +161,14 @@ void refine_type(Workbench& work) {
   work.surface = work.fits[work.choice.best];
   SurfaceFitOptions options;
   options.robust = work.options.robust;
+  options.robust_scale = work.robust_scale;
   for (int pass = 0; pass < 2 && reevaluate_noise(work.samples, work.surface); ++pass) {
     const int before = work.surface.iterations;
     work.surface =
         fit_surface(work.samples, work.surface.model, work.surface.state, options, work.surface.prior);
     work.surface.iterations += before;
   }
-  if (options.robust) flag_outliers(work.samples, work.surface);
+  if (options.robust) flag_outliers(work.samples, work.surface, work.robust_scale);
   work.surface_type = surface_type(work.surface);
   work.log.push_back("3. type: " + words(surface_type(work.surface)) + ", " +
                      work.choice.candidates.front().reason);

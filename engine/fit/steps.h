@@ -20,8 +20,9 @@ struct Workbench {
   double containment = 1.0;  // Gamma
   Samples samples;
 
-  SurfaceState plane;            // step 1
-  SurfaceFit plane_fit;          //         refitted with covariances, in the paper's method only
+  SurfaceState plane;    // step 1
+  SurfaceFit plane_fit;  //         refitted with covariances, in the paper's method only
+  double robust_scale = 1.0;
   std::vector<SurfaceFit> fits;  // step 2: one a candidate model
   Choice choice;                 // step 3
   SurfaceFit surface;            //         the one that was chosen

@@ -218,11 +218,13 @@ void warn_outliers(const FitOptions& options, const Patch& patch, FitReport& rep
 
 std::string verdict(const FitReport& report) {
   if (!report.reasons.empty()) return "Not accepted: " + report.reasons.front().sentence;
-  const std::string agrees =
-      text("Agrees with the noise model: chi-square per degree of freedom %.2f, p = %.2g",
-           report.chi2 / report.dof, report.p_value);
-  if (report.warnings.empty()) return agrees + ".";
-  return agrees + "; but: " + report.warnings.front().sentence;
+  const double ratio = report.chi2 / report.dof;
+  if (ratio < 1.0 - 5.0 * std::sqrt(2.0 / report.dof)) {
+    return text(
+        "Residuals are only %.2g of what the noise model says: accepted, with sigmas that are larger than need be.",
+        std::sqrt(ratio));
+  }
+  return "Agrees with the noise model.";
 }
 
 }  // namespace
