@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -41,6 +42,9 @@ class JsonPlace {
   std::optional<JsonPlace> find(const std::string& key) const;
   std::vector<JsonPlace> items() const;             // of an array
   JsonPlace called(const std::string& what) const;  // the same place, called so in messages
+
+  // Wrong where an object has any other member.
+  void only(std::initializer_list<std::string_view> members) const;
 
   double number() const;                                  // finite
   std::uint64_t whole_number(std::uint64_t limit) const;  // 0 <= n <= limit

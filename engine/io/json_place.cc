@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "engine/io/json.h"
@@ -61,6 +62,13 @@ std::vector<JsonPlace> JsonPlace::items() const {
     places.push_back(std::move(place));
   }
   return places;
+}
+
+void JsonPlace::only(std::initializer_list<std::string_view> members) const {
+  if (!value_->is_object()) return expected("an object");
+  for (const auto& [key, value] : value_->items()) {
+    if (std::ranges::find(members, key) == members.end()) fail("has the unknown member " + in_quotes(key));
+  }
 }
 
 JsonPlace JsonPlace::called(const std::string& what) const {

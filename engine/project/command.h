@@ -1,6 +1,8 @@
-// Everything a user can do to a document, as plain data. A command stores what was asked, never what came out of it.
+// Everything a user can do to a document, as plain data. A command stores what was asked, never what came out
+// of it.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,32 +18,38 @@
 namespace patchlab {
 
 struct OpenScan {
-  std::string id;
-  std::string file;                    // relative to the journal where it has one
-  std::string sha256;                  // empty: not known yet, filled in when it is applied
-  std::string noise;                   // specification; empty: the scan's default
+  std::string id;           // a new one
+  std::string file;         // relative to the journal where it has one; "-" is standard input
+  std::string sha256 = {};  // empty: not known yet, filled in when it is applied
+  std::string noise = {};   // specification; empty: the scan's default
   bool points_in_sensor_frame = false;
+  std::optional<Eigen::Vector3d> viewpoint = {};  // m: where the sensor stood, instead of what the file says
 };
+// Patches of the scan are fitted again with the new model.
 struct SetNoise {
   std::string scan, noise;
 };
+// Makes a region, or changes the one of that name: by a lasso, a label or ids of points, exactly one of them.
 struct Select {
   std::string region, scan;
   SelectMode mode = SelectMode::set;
-  std::vector<Eigen::Vector2d> polygon;        // viewport pixels; empty where label or indices is used
-  ViewCamera camera;
-  bool visible_only = false;
-  std::optional<std::uint32_t> label;          // the points of one label instead
-  std::optional<std::vector<std::uint32_t>> indices;
+  std::vector<Eigen::Vector2d> polygon = {};  // viewport pixels; empty where label or indices is used
+  ViewCamera camera = {};
+  bool visible_only = false;                // only points that nothing hides: refused, as yet
+  std::optional<std::uint32_t> label = {};  // the points of one label instead
+  std::optional<std::vector<std::uint32_t>> indices = {};
 };
+// Fits a patch to a region as it is now, or fits the patch of that name again. Later changes of the region
+// leave it alone.
 struct Fit {
   std::string patch, region;
-  FitOptions options;
-  std::string result_sha256;                   // hash of the result; checked on replay where present
+  FitOptions options = {};
+  std::string result_sha256 = {};  // hash of the result; checked on replay where present
 };
 struct Rename {
-  std::string target, name;                    // a scan, region or patch id
+  std::string target, name;  // a scan, region or patch id
 };
+// With a scan go its regions and patches; a patch stays when its region goes.
 struct Delete {
   std::string target;
 };
@@ -54,19 +62,21 @@ struct Redo {};
 
 using Command = std::variant<OpenScan, SetNoise, Select, Fit, Rename, Delete, Show, Undo, Redo>;
 
-// One line of a journal, without its newline; and back. unreadable error with what is wrong.
-nlohmann::json to_json(const Command& command);
-Result<Command> command_from_json(const nlohmann::json& json);
+// One line of a journal, and back. unreadable error: `name` (where it stands), and the member that is wrong.
+nlohmann::ordered_json to_json(const Command& command);
+Result<Command> command_from_json(const nlohmann::json& json, const std::string& name = "journal");
 // What the history list shows: "lasso mug side · 1,284 points".
 std::string describe(const Command& command, const Document& after);
 
 struct ApplyOptions {
-  std::filesystem::path folder;                // relative scan files are looked for here
-  std::optional<std::filesystem::path> on;     // replay on another scan file (--on): its bytes may differ
+  std::filesystem::path folder;             // relative scan files are looked for here
+  std::optional<std::filesystem::path> on;  // replay on another scan file (--on): its bytes may differ
   Progress progress;
 };
 
 // The document after a command other than Undo and Redo; fills in what the command left open (hashes).
+// Errors: usage (an unknown id, a request that cannot be), unreadable, no_finite_fit; refused where a scan's
+// bytes or a fit's result are not those that the command recorded.
 Result<Document> apply(const Document& before, Command& command, const ApplyOptions& options = {});
 // Hash of a fit's patch: its type and parameters and covariance, bit for bit.
 std::string result_hash(const FitResult& fit);

@@ -55,7 +55,9 @@ const PatchEntry* find_patch(const Document& document, const std::string& id);
 // An id that is not taken yet: "patch-3".
 std::string free_id(const Document& document, const std::string& stem);
 
-// The document's patches as a patch set; `journal` names the file they came from in the provenance.
+// The document's patches as a patch set; `journal` names the file they came from in the provenance. A patch's frame_id is
+// "sensor" where its scan was seen from the origin of its own frame along +z (no viewpoint, or the identity), so that
+// the points are in the sensor's frame; "world" where the scan states another viewpoint.
 PatchSet patch_set(const Document& document, const std::string& journal = {});
 
 }  // namespace patchlab

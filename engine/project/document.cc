@@ -1,0 +1,67 @@
+#include "engine/project/document.h"
+
+#include <algorithm>
+
+namespace patchlab {
+namespace {
+
+template <class Entry>
+const Entry* find(const std::vector<Entry>& entries, const std::string& id) {
+  const auto found = std::ranges::find(entries, id, &Entry::id);
+  return found == entries.end() ? nullptr : &*found;
+}
+
+bool is_identity(const Viewpoint& viewpoint) {
+  return viewpoint.position.isZero(0.0) && rotation(viewpoint).isIdentity(1e-12);
+}
+
+PatchSource source(const ScanEntry& entry) {
+  return {entry.id,
+          entry.scan->file,
+          entry.sha256,
+          entry.noise.specification,
+          entry.noise.assumed,
+          entry.scan->viewpoint};
+}
+
+PatchRecord record(const Document& document, const PatchEntry& entry, const std::string& journal) {
+  PatchRecord record;
+  record.id = entry.id;
+  record.name = entry.name;
+  record.source = entry.scan;
+  record.frame_id = is_identity(find_scan(document, entry.scan)->scan->viewpoint) ? "sensor" : "world";
+  record.patch = entry.fit->patch;
+  record.fit = FitSummary(entry.fit->report);
+  record.provenance = {{"region", entry.region}};
+  if (!journal.empty()) record.provenance["journal"] = journal;
+  return record;
+}
+
+}  // namespace
+
+const ScanEntry* find_scan(const Document& document, const std::string& id) {
+  return find(document.scans, id);
+}
+const RegionEntry* find_region(const Document& document, const std::string& id) {
+  return find(document.regions, id);
+}
+const PatchEntry* find_patch(const Document& document, const std::string& id) {
+  return find(document.patches, id);
+}
+
+std::string free_id(const Document& document, const std::string& stem) {
+  for (int number = 1;; ++number) {
+    const std::string id = stem + "-" + std::to_string(number);
+    const bool taken = find_scan(document, id) || find_region(document, id) || find_patch(document, id);
+    if (!taken) return id;
+  }
+}
+
+PatchSet patch_set(const Document& document, const std::string& journal) {
+  PatchSet set;
+  for (const ScanEntry& entry : document.scans) set.sources.push_back(source(entry));
+  for (const PatchEntry& entry : document.patches) set.patches.push_back(record(document, entry, journal));
+  return set;
+}
+
+}  // namespace patchlab
