@@ -1,0 +1,77 @@
+#include "engine/cli/chain_file.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <optional>
+
+#include "engine/io/json.h"
+
+namespace patchlab {
+namespace {
+
+using nlohmann::ordered_json;
+
+bool is_covariance(const Matrix6d& cov) {
+  if ((cov - cov.transpose()).cwiseAbs().maxCoeff() > 1e-9 * cov.cwiseAbs().maxCoeff()) return false;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(cov, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] >= -1e-9 * cov.trace();
+}
+
+ChainElement read_element(const JsonPlace& place) {
+  place.only({"r", "t", "phi", "covariance"});
+  ChainElement element;
+  element.pose.pose = {place["r"].numbers(3), place["t"].numbers(3)};
+  if (const auto phi = place.find("phi")) {
+    element.phi = phi->number() < 0.0 ? -1 : 1;
+    if (std::abs(phi->number()) != 1.0) phi->fail("must be 1 or -1");
+  }
+  if (const auto covariance = place.find("covariance")) {
+    element.pose.covariance = covariance->square_matrix(6);
+    if (!is_covariance(element.pose.covariance)) covariance->fail("is not symmetric positive semi-definite");
+  }
+  return element;
+}
+
+template <class Derived>
+ordered_json list(const Eigen::MatrixBase<Derived>& matrix) {
+  ordered_json rows = ordered_json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (matrix.cols() == 1) {
+      rows.push_back(matrix(i, 0));
+    } else {
+      rows.push_back(list(matrix.row(i).transpose().eval()));
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+Result<Chain> parse_chain(std::string_view text, const std::string& name) {
+  const Result<nlohmann::json> json = parse_json(text, name);
+  if (!json) return json.error();
+  std::optional<Error> error;
+  const JsonPlace root(*json, name, error);
+  root.only({"elements"});
+  const JsonPlace elements = root["elements"];
+  Chain chain;
+  for (const JsonPlace& place : elements.items()) chain.push_back(read_element(place));
+  if (chain.empty()) elements.fail("must hold a pose or more");
+  if (error) return *error;
+  return chain;
+}
+
+ordered_json to_json(const UncertainPose& pose) {
+  const UncertainAxisPose axis = axis_pose(pose);
+  return {{"r", list(pose.pose.r)},
+          {"t", list(pose.pose.t)},
+          {"covariance", list(pose.covariance)},
+          {"axis_pose",
+           {{"r_xy", list(axis.r_xy)},
+            {"t", list(axis.t)},
+            {"covariance", list(axis.covariance)},
+            {"near_singular", axis.near_singular},
+            {"tilt_covariance", list(axis.cov_tilt)}}}};
+}
+
+}  // namespace patchlab

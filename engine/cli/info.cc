@@ -1,0 +1,117 @@
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/cli/options.h"
+#include "engine/cli/output.h"
+#include "engine/cli/verb.h"
+#include "engine/io/read_scan.h"
+
+namespace patchlab {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Request {
+  std::string scan;
+  bool points_in_sensor_frame = false;
+  bool json = false;
+};
+
+ordered_json list(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+ordered_json to_json(const Scan& scan) {
+  ordered_json fields = ordered_json::array();
+  for (const FieldInfo& field : scan.fields) {
+    fields.push_back({{"name", field.name}, {"type", field.type}, {"count", field.count}});
+  }
+  ordered_json box = nullptr;
+  if (const std::optional<Bounds> around = bounds(scan))
+    box = {{"min", list(around->min)}, {"max", list(around->max)}};
+  return {{"file", scan.file},
+          {"format", scan.format},
+          {"encoding", scan.encoding},
+          {"points", scan.size()},
+          {"finite_points", scan.finite_count},
+          {"width", scan.width},
+          {"height", scan.height},
+          {"organized", scan.organized()},
+          {"fields", fields},
+          {"viewpoint",
+           {{"position", list(scan.viewpoint.position)},
+            {"quaternion_xyzw", scan.viewpoint.quaternion_xyzw},
+            {"stated", scan.viewpoint.stated}}},
+          {"bounds", box},
+          {"unit", "m"},
+          {"covariance", !scan.covariances.empty()},
+          {"labels", !scan.labels.empty()},
+          {"notices", scan.notices}};
+}
+
+// A name that is not UTF-8 text shows replacement characters.
+std::string json_text_of(const Scan& scan) {
+  return to_json(scan).dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string spaced(const ordered_json& numbers) {
+  std::string text;
+  for (const ordered_json& number : numbers) text += (text.empty() ? "" : " ") + number.dump();
+  return text;
+}
+
+std::string fields_of(const Scan& scan) {
+  std::string text;
+  for (const FieldInfo& field : scan.fields) {
+    text += (text.empty() ? "" : ", ") + field.name + " " + field.type;
+    if (field.count != 1) text += "[" + std::to_string(field.count) + "]";
+  }
+  return text;
+}
+
+std::string to_text(const Scan& scan) {
+  const ordered_json json = to_json(scan);
+  const auto line = [](const char* what, const std::string& value) {
+    return std::string(what) + value + "\n";
+  };
+  const std::string grid = std::to_string(scan.width) + " x " + std::to_string(scan.height);
+  std::string text = line("file        ", scan.file + " (" + scan.format + ", " + scan.encoding + ")");
+  text += line("points      ", std::to_string(scan.size()) + ", " + std::to_string(scan.finite_count) +
+                                   " finite" + (scan.organized() ? ", grid of " + grid : ""));
+  text += line("fields      ", fields_of(scan));
+  text += line("viewpoint   ", spaced(json["viewpoint"]["position"]) + " m, quaternion xyzw " +
+                                   spaced(json["viewpoint"]["quaternion_xyzw"]) +
+                                   (scan.viewpoint.stated ? "" : " (assumed)"));
+  if (const ordered_json& box = json["bounds"]; !box.is_null()) {
+    text += line("bounds      ", spaced(box["min"]) + " to " + spaced(box["max"]) + " m");
+  }
+  text += line("covariance  ", scan.covariances.empty() ? "no" : "yes");
+  text += line("labels      ", scan.labels.empty() ? "no" : "yes");
+  for (const std::string& notice : scan.notices) text += line("notice      ", notice);
+  return text;
+}
+
+// A file name need not be UTF-8, JSON must be: what is not becomes U+FFFD.
+std::string as_utf8(const ordered_json& json) {
+  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+Result<int> info(const Request& request) {
+  ProgressLine line("reading");
+  const Result<Scan> scan = read_scan(
+      request.scan, {.points_in_sensor_frame = request.points_in_sensor_frame, .progress = line.progress()});
+  if (!scan) return scan.error();
+  Outputs outputs;
+  outputs.add("-", request.json ? as_utf8(to_json(*scan)) + "\n" : to_text(*scan));
+  return outputs.write();
+}
+
+}  // namespace
+
+Action set_up_info(CLI::App& app) {
+  const auto request = std::make_shared<Request>();
+  app.add_option("scan", request->scan, "a scan; - is standard input")->required();
+  add_points_in(app, request->points_in_sensor_frame);
+  app.add_flag("--json", request->json, "print JSON");
+  return [request] { return info(*request); };
+}
+
+}  // namespace patchlab

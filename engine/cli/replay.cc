@@ -1,0 +1,92 @@
+#include <memory>
+
+#include "engine/cli/fit_table.h"
+#include "engine/cli/output.h"
+#include "engine/cli/verb.h"
+#include "engine/io/export.h"
+#include "engine/project/session.h"
+
+namespace patchlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request {
+  std::string journal;
+  std::string output;
+  std::vector<std::string> exports;  // FORMAT=FILE
+  std::string on;
+  bool json = false;
+};
+
+struct Export {
+  const ExportFormat* format;
+  fs::path file;
+};
+
+Result<std::vector<Export>> parse_exports(const std::vector<std::string>& texts) {
+  std::vector<Export> exports;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals + 1 == text.size()) {
+      return Error{ErrorCode::usage,
+                   "--export takes FORMAT=FILE, as in ply=patches.ply, not '" + text + "'."};
+    }
+    const Result<const ExportFormat*> format = export_format(text.substr(0, equals));
+    if (!format) return format.error();
+    exports.push_back({*format, text.substr(equals + 1)});
+  }
+  return exports;
+}
+
+Result<void> check_outputs(const Request& request, const std::vector<Export>& exports) {
+  std::vector<fs::path> files = {request.output, request.json ? "-" : ""};
+  for (const Export& one : exports) files.push_back(one.file);
+  return Outputs::check(files);
+}
+
+Result<int> replay_journal(const Request& request) {
+  const Result<std::vector<Export>> exports = parse_exports(request.exports);
+  if (!exports) return exports.error();
+  const Result<void> checked = check_outputs(request, *exports);
+  if (!checked) return checked.error();
+  ProgressLine line("replaying");
+  ApplyOptions options{.folder = {}, .on = {}, .progress = line.progress()};
+  if (!request.on.empty()) options.on = request.on;
+  const Result<Document> document = replay(request.journal, options);
+  if (!document) return document.error();
+
+  const PatchSet set = patch_set(*document, fs::path(request.journal).filename().string());
+  const Result<std::string> text = write_patch_set(set);
+  if (!text) return text.error();
+  Outputs outputs;
+  if (!request.output.empty()) outputs.add(request.output, *text);
+  for (const auto& [format, file] : *exports) {
+    Result<std::string> bytes = format->write(set);
+    if (!bytes) return bytes.error();
+    outputs.add(file, std::move(*bytes));
+  }
+  if (request.json) outputs.add("-", *text);
+  if (!request.json && request.output.empty() && exports->empty()) {
+    std::string tables;
+    for (const PatchEntry& patch : document->patches) tables += fit_table(*document, patch);
+    outputs.add("-", std::move(tables));
+  }
+  return outputs.write();
+}
+
+}  // namespace
+
+Action set_up_replay(CLI::App& app) {
+  const auto request = std::make_shared<Request>();
+  app.add_option("journal", request->journal, "a journal; - is standard input")->required();
+  app.add_option("-o,--output", request->output, "write the patch set; - is standard output");
+  app.add_option("--export", request->exports, "FORMAT=FILE, once for each; see patchlab help formats")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--on", request->on, "run it on this scan instead of the recorded one");
+  app.add_flag("--json", request->json, "print the patch set instead of tables");
+  return [request] { return replay_journal(*request); };
+}
+
+}  // namespace patchlab
