@@ -1,0 +1,236 @@
+// The whole program without a display: real panels, real input, real pixels.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+
+#include "engine/patch/patch.h"
+#include "tests/viewer/app/ball_scan.h"
+#include "viewer/app/app.h"
+#include "viewer/app/headless.h"
+
+namespace patchlab::viewer {
+namespace {
+
+struct Look {
+  float scale;
+  ThemeChoice theme;
+};
+
+class Program {
+ public:
+  Program(const std::filesystem::path& journals, const Look& look, int width = 1200, int height = 760) {
+    const auto pixels = [&look](int size) { return static_cast<int>(static_cast<float>(size) * look.scale); };
+    auto made = make_platform({"test", pixels(width), pixels(height), true, look.scale});
+    if (!made) throw std::runtime_error(made.error().message);
+    platform_ = std::move(*made);
+    Result<Renderer> renderer = Renderer::create();
+    if (!renderer) throw std::runtime_error(renderer.error().message);
+    app_.emplace(*platform_, std::move(*renderer), AppOptions{look.theme, journals, true});
+  }
+  App& app() { return *app_; }
+  const Document& document() { return app_->workbench().document(); }
+
+  void settle() { run_until_settled(*app_, *platform_); }
+  void play(const std::string& log) {
+    const auto events = parse_input_log(log, "test");
+    ASSERT_TRUE(events) << events.error().message;
+    const Result<void> played = viewer::play(*events, *app_, *platform_);
+    ASSERT_TRUE(played) << played.error().message;
+    settle();
+  }
+  Image image() { return platform_->read_image(); }
+  // Also leaves the picture to be looked at.
+  Image picture(const std::string& name) {
+    const Image taken = image();
+    EXPECT_TRUE(write_png(name + ".png", taken));
+    return taken;
+  }
+  // A place for a log, from the middle of the view in parts of its height.
+  std::string at(double right, double down) {
+    const Rect view = app_->layout().view;
+    return std::to_string(view.x + view.width / 2 + right * view.height) + " " +
+           std::to_string(view.y + view.height / 2 + down * view.height) + " ";
+  }
+  // A freehand circle round the middle.
+  std::string draw_circle(double radius) {
+    std::string log = "drag ";
+    for (int i = 0; i <= 36; ++i) {
+      const double turn = 2 * std::numbers::pi * i / 37;
+      log += at(radius * std::cos(turn), radius * std::sin(turn));
+    }
+    return log + "\n";
+  }
+
+ private:
+  std::unique_ptr<Platform> platform_;
+  std::optional<App> app_;
+};
+
+// The ball is 60 mm at 0.74 m before a camera that sees 240 pixels of 1 / 262.5: it fills 0.082 of the height
+// each side.
+constexpr double well_inside = 0.062;
+
+class ProgramTest : public testing::TestWithParam<Look> {
+ protected:
+  ProgramTest() : folder_(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) {
+    program_.app().open(folder_.ball());
+    program_.settle();
+  }
+  TestFolder folder_;
+  Program program_{folder_.path() / "state", GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(ScalesAndThemes, ProgramTest,
+                         testing::Values(Look{1.0f, ThemeChoice::dark}, Look{2.0f, ThemeChoice::light}));
+
+TEST_P(ProgramTest, FourActionsMakeAKeptSphere) {
+  program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nwait\nkey Enter\n");
+  ASSERT_EQ(program_.document().patches.size(), 1u);
+  const Patch& patch = program_.document().patches[0].fit->patch;
+  EXPECT_EQ(patch.type->surface, SurfaceType::sphere);
+  EXPECT_NEAR(1 / std::abs(curvatures(patch)[0]), ball_radius, 0.01);
+  EXPECT_TRUE(program_.app().state().draft.empty());
+  EXPECT_EQ(program_.app().state().selected, "patch-1");
+  EXPECT_TRUE(program_.app().errors().empty());
+  program_.picture("program_sphere_" + std::to_string(static_cast<int>(GetParam().scale)));
+}
+
+TEST_P(ProgramTest, ThePatchFollowsWhileTheLassoMoves) {
+  program_.play("key L\nmove " + program_.at(0, -0.05) + "\npress left\nmove " + program_.at(0.05, 0.03) +
+                "\nmove " + program_.at(-0.05, 0.03) + "\nwait\n");
+  EXPECT_TRUE(program_.app().state().drawing);
+  EXPECT_EQ(program_.app().state().currency, Currency::current);
+  EXPECT_EQ(program_.document().patches.size(), 1u);
+  EXPECT_TRUE(program_.app().workbench().session().document().regions.empty());
+  program_.picture("program_live_" + std::to_string(static_cast<int>(GetParam().scale)));
+  program_.play("key Esc\n");
+  EXPECT_FALSE(program_.app().state().drawing);
+  EXPECT_TRUE(program_.document().patches.empty());
+}
+
+TEST_P(ProgramTest, ButtonsOfTheToolBarDoWhatTheySay) {
+  program_.play("click tools/Lasso\n");
+  EXPECT_EQ(program_.app().state().tool, Tool::lasso);
+  program_.play("click tools/Sub\n");
+  EXPECT_EQ(program_.app().state().mode, SelectMode::subtract);
+  program_.play("click tools/Cylinder\n");
+  EXPECT_EQ(program_.app().state().surface, SurfaceRequest::circular_cylinder);
+  program_.play("click tools/Reject outliers\n");
+  EXPECT_FALSE(program_.app().state().robust);
+  program_.play("click tools/Orbit\n");
+  EXPECT_EQ(program_.app().state().tool, Tool::orbit);
+}
+
+TEST_P(ProgramTest, EscapeCancelsTheContourThenTheFitThenTheTool) {
+  program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\n");
+  EXPECT_FALSE(program_.app().state().draft.empty());
+  program_.play("click " + program_.at(-0.3, -0.3) + "\n");
+  EXPECT_TRUE(program_.app().state().drawing);
+  program_.play("key Esc\n");
+  EXPECT_FALSE(program_.app().state().drawing);
+  EXPECT_EQ(program_.app().state().tool, Tool::lasso);
+  program_.play("key Esc\n");
+  EXPECT_TRUE(program_.app().state().draft.empty());
+  program_.play("key Esc\n");
+  EXPECT_EQ(program_.app().state().tool, Tool::orbit);
+}
+
+TEST_P(ProgramTest, NavigationDuringALassoKeepsTheContour) {
+  program_.play("key L\nclick " + program_.at(-0.05, -0.05) + "\nclick " + program_.at(0.05, -0.05) +
+                "\nclick " + program_.at(0.05, 0.05) + "\n");
+  const OrbitCamera before = program_.app().camera();
+  program_.play("move " + program_.at(-0.3, -0.2) + "\npress right\nmove " + program_.at(-0.2, -0.15) +
+                "\nrelease right\nmove " + program_.at(0, 0.1) + "\nwheel 2\n");
+  EXPECT_NE(program_.app().camera().azimuth, before.azimuth);
+  EXPECT_LT(program_.app().camera().distance, before.distance);
+  EXPECT_TRUE(program_.app().state().drawing);
+  EXPECT_EQ(program_.app().state().contour.size(), 4u);
+  program_.play("key Enter\nwait\n");
+  EXPECT_EQ(program_.app().workbench().session().document().regions.size(), 1u);
+}
+
+TEST_P(ProgramTest, UndoAndRedoByKey) {
+  program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nkey Enter\nwait\n");
+  program_.play("key Ctrl+Z\nkey Ctrl+Z\nwait\n");
+  EXPECT_TRUE(program_.document().patches.empty());
+  EXPECT_TRUE(program_.document().regions.empty());
+  program_.play("key Ctrl+Shift+Z\nkey Ctrl+Shift+Z\nwait\n");
+  EXPECT_EQ(program_.document().patches.size(), 1u);
+}
+
+TEST_P(ProgramTest, ThePatchIsRenamedInTheTreeAndDeletedByKey) {
+  program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nkey Enter\nwait\n");
+  program_.play("click tree/patch-1\nkey F2\n");
+  program_.play("type ball front\nkey Enter\n");
+  EXPECT_EQ(program_.document().patches.at(0).name, "ball front");
+  program_.play("click tree/region-1\nclick tree/ball front\nkey Delete\n");
+  EXPECT_TRUE(program_.document().patches.empty());
+}
+
+TEST_P(ProgramTest, TheHelpSheetListsTheKeysAndCloses) {
+  program_.play("key F1\n");
+  program_.picture("program_help_" + std::to_string(static_cast<int>(GetParam().scale)));
+  EXPECT_TRUE(program_.app().widgets().contains("help/close"));
+  program_.play("type lasso\n");
+  program_.play("key Esc\n");
+  EXPECT_FALSE(program_.app().widgets().contains("help/close"));
+  EXPECT_EQ(program_.app().state().tool, Tool::orbit);
+}
+
+TEST_P(ProgramTest, TheFileDialogOpensAScanByKeyboardAlone) {
+  program_.play("key Ctrl+O\n");
+  program_.picture("program_files_" + std::to_string(static_cast<int>(GetParam().scale)));
+  EXPECT_TRUE(program_.app().widgets().contains("files/ball.pcd"));
+  program_.play("type ball.p\nkey Enter\nwait\n");
+  EXPECT_EQ(program_.document().scans.size(), 2u);
+}
+
+TEST_P(ProgramTest, ThePatchesAreExportedByTheDialog) {
+  program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nkey Enter\nwait\nkey Ctrl+E\n");
+  program_.play("click format/ply\nclick files/confirm\nwait\n");
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "ball.ply"));
+}
+
+TEST_P(ProgramTest, EveryActionOfTheTableLeavesTheProgramOnItsFeet) {
+  program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nkey Enter\nwait\n");
+  for (const char* key :
+       {"F", "V", "Home", "5", "C", "C", "]", "[", "R", "1", "2", "4", "0", "Ctrl+T", "Ctrl+T"}) {
+    program_.play(std::string("key ") + key + "\nwait\n");
+  }
+  EXPECT_TRUE(program_.app().errors().empty());
+}
+
+TEST_P(ProgramTest, ThePictureShowsTheScanInTheViewAndTextInThePanels) {
+  const Image picture =
+      program_.picture("program_scan_" + std::to_string(static_cast<int>(GetParam().scale)));
+  const auto colours_in = [&picture](const Rect& rect) {
+    std::set<std::array<std::uint8_t, 3>> colours;
+    for (int y = static_cast<int>(rect.y); y < static_cast<int>(rect.bottom()); ++y) {
+      for (int x = static_cast<int>(rect.x); x < static_cast<int>(rect.right()); ++x) {
+        const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                                    static_cast<std::size_t>(x));
+        colours.insert({picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]});
+      }
+    }
+    return colours.size();
+  };
+  const Layout& layout = program_.app().layout();
+  for (const Rect& rect : {layout.menu, layout.tools, layout.tree, layout.inspector, layout.status}) {
+    EXPECT_GT(colours_in(rect), 8u);
+  }
+  EXPECT_GT(colours_in(layout.view), 50u);
+}
+
+TEST(EmptyProgram, GreetsAndOffersToOpenAScan) {
+  const TestFolder folder("empty_program");
+  Program program(folder.path(), {1.0f, ThemeChoice::dark});
+  program.settle();
+  EXPECT_TRUE(program.app().widgets().contains("inspector/open"));
+  program.play("key L\nclick 600 400\nclick 700 400\nclick 700 500\nkey Enter\n");
+  EXPECT_EQ(program.app().state().toasts.size(), 1u);
+  EXPECT_TRUE(program.app().errors().empty());
+  program.picture("program_empty");
+}
+
+}  // namespace
+}  // namespace patchlab::viewer

@@ -1,0 +1,163 @@
+#include "viewer/app/app.h"
+
+#include <algorithm>
+#include <ctime>
+#include <utility>
+
+#include "viewer/app/journal_file.h"
+#include "viewer/app/point_shades.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+constexpr double notice_seconds = 5.0, error_seconds = 12.0;
+constexpr double idle_patience = 0.5, toast_patience = 0.1;
+
+std::string time_of_day() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[16];
+  std::strftime(text, sizeof text, "%H:%M:%S", &local);
+  return text;
+}
+
+bool exists(const Document& document, const std::string& id) {
+  return find_scan(document, id) || find_region(document, id) || find_patch(document, id);
+}
+
+std::string newest(const Document& document) {
+  if (!document.patches.empty()) return document.patches.back().id;
+  if (!document.regions.empty()) return document.regions.back().id;
+  return document.scans.empty() ? std::string() : document.scans.back().id;
+}
+
+}  // namespace
+
+App::App(Platform& platform, Renderer renderer, AppOptions options)
+    : platform_(platform),
+      renderer_(std::move(renderer)),
+      options_(std::move(options)),
+      workbench_({options_.journals, options_.keep_journals}, [&platform] { platform.wake(); }) {
+  state_.theme = options_.theme;
+  platform_.on_drop([this](const std::vector<std::string>& files) {
+    for (const std::string& file : files) open(file);
+  });
+}
+
+void App::open(const std::filesystem::path& file) {
+  if (file.extension() == ".patchlab") journal_to_show_ = file;
+  workbench_.open(file);
+}
+
+double App::aspect() const { return layout_.view.width / std::max(1.0f, layout_.view.height); }
+
+ViewCamera App::view() const {
+  return view_camera(stage_.camera, std::max(1, static_cast<int>(layout_.view.width)),
+                     std::max(1, static_cast<int>(layout_.view.height)));
+}
+
+void App::toast(const std::string& text, bool is_error) {
+  state_.toasts.push_back({text, is_error, ImGui::GetTime() + (is_error ? error_seconds : notice_seconds)});
+}
+
+void App::collect() {
+  workbench_.deliver();
+  for (const Error& error : workbench_.take_errors()) {
+    toast(error.message, true);
+    errors_.push_back(error);
+  }
+  for (const std::string& notice : workbench_.take_notices()) toast(notice, false);
+  std::erase_if(state_.toasts, [](const Toast& shown) { return shown.until < ImGui::GetTime(); });
+  if (const std::optional<std::string> selection = workbench_.take_selection()) state_.selected = *selection;
+  state_.draft = workbench_.draft_patch();
+  state_.currency = workbench_.currency();
+  state_.fit_message = workbench_.fit_message();
+  state_.fit_milliseconds = workbench_.fit_milliseconds();
+  state_.busy = workbench_.busy();
+  if (workbench_.changes() != seen_changes_) show_new_document();
+}
+
+void App::show_new_document() {
+  seen_changes_ = workbench_.changes();
+  const Session& session = workbench_.session();
+  if (session.history() != state_.history || session.position() != state_.position) {
+    state_.history = session.history();
+    state_.position = session.position();
+    if (!session.journal().empty()) state_.saved = "saved " + time_of_day();
+  }
+  state_.can_undo = session.can_undo();
+  state_.can_redo = session.can_redo();
+  state_.journal = session.journal().string();
+  const Document& document = workbench_.document();
+  if (!exists(document, state_.selected)) state_.selected = newest(document);
+  platform_.set_title(document.scans.empty() ? "patchlab" : document.scans.back().name + " - patchlab");
+  make_shades();
+  if (document.scans.empty() || camera_of_ == document.scans.back().id) return;
+  camera_of_ = document.scans.back().id;
+  view_of_sensor();
+  stage_.settle();
+  if (!journal_to_show_) return;
+  if (const std::optional<ViewCamera> camera = last_lasso_camera(*journal_to_show_);
+      camera && !document.patches.empty()) {
+    stage_.look_along(*camera, document, document.patches.back().id, aspect());
+  }
+  journal_to_show_.reset();
+}
+
+void App::make_shades() {
+  for (const ScanEntry& entry : workbench_.document().scans) {
+    if (!entry.scan || stage_.has_shades(*entry.scan)) continue;
+    stage_.set_shades(entry.scan, nullptr);
+    workbench_.in_background([this, scan = entry.scan] {
+      auto shades = std::make_shared<const std::vector<std::uint8_t>>(point_shades(*scan));
+      return [this, scan, shades] { stage_.set_shades(scan, shades); };
+    });
+  }
+}
+
+bool App::settled() const { return workbench_.idle() && !stage_.flying(); }
+
+double App::patience() const {
+  if (stage_.flying()) return 0.0;
+  return state_.toasts.empty() && !state_.busy ? idle_patience : toast_patience;
+}
+
+void App::frame() {
+  if (wanted_scale_) platform_.set_scale(*std::exchange(wanted_scale_, std::nullopt));
+  platform_.begin_frame();
+  const float scale = platform_.scale();
+  const Theme colours = theme(state_.theme);
+  const std::string style = std::to_string(static_cast<int>(state_.theme)) + " " + std::to_string(scale);
+  if (style != styled_for_) apply_style(colours, scale);
+  styled_for_ = style;
+  layout_ = make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()), scale);
+  collect();
+  handle_keys();
+  handle_pointer();
+  stage_.fly(ImGui::GetIO().DeltaTime);
+  draw();
+}
+
+void App::draw() {
+  const float scale = platform_.scale();
+  stage_.update(workbench_.document(), state_, workbench_.changes(), scale);
+  const ViewCamera camera = view();
+  state_.notes = stage_.notes(camera);
+  state_.drawing = lasso_.drawing();
+  state_.contour = lasso_.contour(camera);
+  const Rect& view = layout_.view;
+  renderer_.draw(stage_.scene(), camera,
+                 {static_cast<int>(view.x), platform_.height() - static_cast<int>(view.bottom()),
+                  static_cast<int>(view.width), static_cast<int>(view.height)});
+  WidgetMap widgets;
+  const Gui gui{theme(state_.theme), platform_.fonts(), scale, &widgets};
+  Requests requests;
+  draw_panels({gui, workbench_.document(), state_, layout_}, memory_, requests);
+  platform_.end_frame();
+  widgets_ = std::move(widgets);
+  answer(requests);
+}
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,111 @@
+// The program: owns everything, and makes one frame after the other. No statics, no globals.
+//
+//   deliver what the worker has made -> input -> scene -> panels -> what the panels ask for
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/app/stage.h"
+#include "viewer/app/workbench.h"
+#include "viewer/panel/panels.h"
+#include "viewer/platform/platform.h"
+#include "viewer/render/renderer.h"
+#include "viewer/tool/lasso_tool.h"
+#include "viewer/tool/navigation.h"
+
+namespace patchlab::viewer {
+
+struct AppOptions {
+  ThemeChoice theme = ThemeChoice::dark;
+  std::filesystem::path journals;  // folder for the journals of opened scans
+  bool keep_journals = true;
+};
+
+class App {
+ public:
+  // `platform` outlives the app.
+  App(Platform& platform, Renderer renderer, AppOptions options);
+
+  void open(const std::filesystem::path& file);
+  void frame();
+  // Nothing moves and nothing runs in the background: the next frame would be the same.
+  bool settled() const;
+  bool wants_to_close() const { return close_; }
+  // How long the next frame can wait for input, s.
+  double patience() const;
+
+  void clear_notices() { state_.toasts.clear(); }
+
+  Workbench& workbench() { return workbench_; }
+  const ViewState& state() const { return state_; }
+  const OrbitCamera& camera() const { return stage_.camera; }
+  // Of the last frame: what replayed logs and tests click on.
+  const WidgetMap& widgets() const { return widgets_; }
+  const Layout& layout() const { return layout_; }
+  // Every error that was shown to the user, oldest first.
+  const std::vector<Error>& errors() const { return errors_; }
+
+ private:
+  // app.cc
+  void collect();  // what the workbench has to say, into the view state
+  void show_new_document();
+  void make_shades();
+  void draw();
+  void toast(const std::string& text, bool is_error);
+  double aspect() const;
+  ViewCamera view() const;
+
+  // input.cc
+  void handle_pointer();
+  void press(Button button);
+  void release(Button button);
+  void double_click();
+  void click();
+  void lasso(LassoTool::Outcome outcome);
+  void handle_keys();
+  LassoView lasso_view() const;
+  Eigen::Vector2d pointer() const;  // px of the view
+
+  // requests.cc
+  void answer(const Requests& requests);
+  void act(Action action);
+  bool choose(Action action);
+  bool act_on_contour_and_fit(Action action);
+  bool act_on_view(Action action);
+  void act_on_document(Action action);
+  void cancel();
+  void keep();
+  void remove_selected();
+  void rename_selected();
+  void choose_surface(SurfaceRequest surface);
+  void select(const std::string& id);
+  void view_of_sensor();
+  void scale_interface(float scale);
+
+  Platform& platform_;
+  Renderer renderer_;
+  AppOptions options_;
+  ViewState state_;
+  PanelMemory memory_;
+  Layout layout_;
+  WidgetMap widgets_;
+  Stage stage_;
+  LassoTool lasso_;
+  Navigation navigation_;
+  std::optional<Eigen::Vector2d>
+      pressed_;  // px, where the left button went down to navigate: a click if it stays there
+  std::vector<Error> errors_;
+  std::optional<std::filesystem::path> journal_to_show_;  // its camera is taken when it is open
+  std::string styled_for_;                                // theme and scale that ImGui's style was made for
+  std::string camera_of_;                                 // what the camera was last set up for
+  std::uint64_t seen_changes_ = 0;
+  std::optional<float> wanted_scale_;  // of the interface, from the next frame on
+  bool close_ = false;
+  Workbench workbench_;  // last: its worker stops first
+};
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,91 @@
+#include "viewer/app/boxes.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/mesh/patch_mesh.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+constexpr double share_before_sensor = 0.95;
+
+class Box {
+ public:
+  void add(const Eigen::Vector3d& point) {
+    if (!box_) box_ = Bounds{point, point};
+    box_->min = box_->min.cwiseMin(point);
+    box_->max = box_->max.cwiseMax(point);
+  }
+  void add(const std::optional<Bounds>& other) {
+    if (!other) return;
+    add(other->min);
+    add(other->max);
+  }
+  const std::optional<Bounds>& result() const { return box_; }
+
+ private:
+  std::optional<Bounds> box_;
+};
+
+}  // namespace
+
+std::optional<Bounds> box_of(const Document& document) {
+  Box box;
+  for (const ScanEntry& entry : document.scans) {
+    if (entry.visible && entry.scan) box.add(bounds(*entry.scan));
+  }
+  return box.result();
+}
+
+std::optional<Bounds> box_of(const Document& document, const std::string& id) {
+  Box box;
+  if (const ScanEntry* scan = find_scan(document, id); scan && scan->scan) return bounds(*scan->scan);
+  if (const PatchEntry* patch = find_patch(document, id); patch && patch->fit) {
+    for (const Eigen::Vector3d& point : outline_curve(patch->fit->patch, 64)) box.add(point);
+    box.add(centre(patch->fit->patch));
+  }
+  if (const RegionEntry* region = find_region(document, id); region && region->points) {
+    const ScanEntry* scan = find_scan(document, region->scan);
+    for (const std::uint32_t point : *region->points) {
+      if (scan && scan->scan) box.add(scan->scan->point(point));
+    }
+  }
+  return box.result();
+}
+
+std::optional<double> depth_seen_by_sensor(const Scan& scan) {
+  const Eigen::Vector3d forward = rotation(scan.viewpoint).col(2);
+  std::vector<double> depths;
+  depths.reserve(scan.finite_count);
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!scan.finite[i]) continue;
+    depths.push_back(forward.dot(scan.point(i) - scan.viewpoint.position));
+    before += depths.back() > 0;
+  }
+  if (depths.empty() ||
+      static_cast<double>(before) < share_before_sensor * static_cast<double>(depths.size())) {
+    return std::nullopt;
+  }
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle;
+}
+
+void turn_towards(OrbitCamera& camera, const Eigen::Vector3d& outwards) {
+  const ViewCamera view = view_camera(camera, 1, 1);
+  const auto& q = view.quaternion_xyzw;
+  const Eigen::Vector3d now = Eigen::Quaterniond(q[3], q[0], q[1], q[2]) * Eigen::Vector3d::UnitZ();
+  const auto flat = [&camera](const Eigen::Vector3d& v) {
+    return Eigen::Vector3d(v - camera.up.dot(v) * camera.up);
+  };
+  const Eigen::Vector3d from = flat(now), to = flat(outwards);
+  const double turn = std::atan2(camera.up.dot(from.cross(to)), from.dot(to));
+  const double elevation = std::asin(std::clamp(camera.up.dot(outwards.normalized()), -1.0, 1.0));
+  camera.orbit(turn, elevation - camera.elevation);
+}
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,107 @@
+#include "viewer/app/journal_file.h"
+
+#include <cstdlib>
+#include <ctime>
+
+#include "engine/base/file.h"
+#include "engine/io/export.h"
+
+namespace patchlab::viewer {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string time_stamp() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
+  return text;
+}
+
+Result<std::vector<Command>> commands_of(const fs::path& journal) {
+  const Result<Bytes> bytes = read_file(journal);
+  if (!bytes) return bytes.error();
+  return read_journal(as_text(*bytes), journal.string());
+}
+
+}  // namespace
+
+fs::path default_journal_folder() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  if (state && *state) return fs::path(state) / "patchlab";
+  const char* home = std::getenv("HOME");
+  return fs::path(home ? home : ".") / ".local" / "state" / "patchlab";
+}
+
+Result<fs::path> new_journal_path(const fs::path& folder, const fs::path& scan) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    return Error{ErrorCode::unwritable, "The folder for journals " + folder.string() +
+                                            " cannot be made: " + error.message() +
+                                            "; set XDG_STATE_HOME to a folder that can be written."};
+  }
+  const std::string stem = scan.stem().string() + "-" + time_stamp();
+  fs::path journal = folder / (stem + ".patchlab");
+  for (int next = 2; fs::exists(journal, error); ++next) {
+    journal = folder / (stem + "-" + std::to_string(next) + ".patchlab");
+  }
+  return journal;
+}
+
+std::string path_for_journal(const fs::path& scan, const fs::path& journal) {
+  const fs::path absolute = fs::absolute(scan).lexically_normal();
+  if (journal.empty()) return absolute.string();
+  return absolute.lexically_relative(fs::absolute(journal).lexically_normal().parent_path()).string();
+}
+
+Result<void> copy_journal(const fs::path& journal, const fs::path& copy) {
+  const Result<std::vector<Command>> commands = commands_of(journal);
+  if (!commands) return commands.error();
+  std::string text = journal_header() + "\n";
+  for (Command command : *commands) {
+    if (OpenScan* open = std::get_if<OpenScan>(&command)) {
+      open->file = path_for_journal(journal.parent_path() / open->file, copy);
+    }
+    text += to_json(command).dump() + "\n";
+  }
+  return write_file(copy, text);
+}
+
+Result<Session> replayed_session(const fs::path& journal, const Progress& progress) {
+  const Result<std::vector<Command>> commands = commands_of(journal);
+  if (!commands) return commands.error();
+  ApplyOptions options;
+  options.folder = journal.parent_path();
+  options.progress = progress;
+  Session session;
+  for (const Command& command : *commands) {
+    const Result<void> done = session.run(command, options);
+    if (!done) return done.error();
+  }
+  return session;
+}
+
+std::optional<ViewCamera> last_lasso_camera(const fs::path& journal) {
+  const Result<std::vector<Command>> commands = commands_of(journal);
+  if (!commands) return std::nullopt;
+  for (auto command = commands->rbegin(); command != commands->rend(); ++command) {
+    const Select* select = std::get_if<Select>(&*command);
+    if (select && !select->polygon.empty()) return select->camera;
+  }
+  return std::nullopt;
+}
+
+Result<void> export_patches(const Document& document, const fs::path& journal, const std::string& format,
+                            const fs::path& file) {
+  const Result<const ExportFormat*> chosen = export_format(format);
+  if (!chosen) return chosen.error();
+  const Result<std::string> bytes = (*chosen)->write(patch_set(document, journal.filename().string()));
+  if (!bytes) return bytes.error();
+  return write_file(file, *bytes);
+}
+
+}  // namespace patchlab::viewer

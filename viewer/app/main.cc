@@ -1,0 +1,90 @@
+#include <cstdio>
+
+#include "engine/base/file.h"
+#include "viewer/app/app.h"
+#include "viewer/app/headless.h"
+#include "viewer/app/journal_file.h"
+#include "viewer/app/options.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+int fail(const Error& error) {
+  std::fprintf(stderr, "patchlab-viewer: %s\n", error.message.c_str());
+  return exit_status(error.code);
+}
+
+Result<void> play_log(const std::filesystem::path& file, App& app, Platform& platform) {
+  const Result<Bytes> bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  const Result<std::vector<LogEvent>> events = parse_input_log(as_text(*bytes), file.string());
+  if (!events) return events.error();
+  return play(*events, app, platform);
+}
+
+Result<void> export_all(const ViewerOptions& options, App& app) {
+  for (const ExportRequest& request : options.exports) {
+    const Result<void> written =
+        export_patches(app.workbench().session().document(), app.workbench().session().journal(),
+                       request.format, request.file);
+    if (!written) return written;
+  }
+  return {};
+}
+
+int run_without_user(const ViewerOptions& options, App& app, Platform& platform) {
+  run_until_settled(app, platform);
+  if (options.replay) {
+    if (const Result<void> played = play_log(*options.replay, app, platform); !played)
+      return fail(played.error());
+    run_until_settled(app, platform);
+  }
+  if (options.screenshot) {
+    app.clear_notices();
+    app.frame();
+    if (const Result<void> written = write_png(*options.screenshot, platform.read_image()); !written) {
+      return fail(written.error());
+    }
+  }
+  if (const Result<void> written = export_all(options, app); !written) return fail(written.error());
+  int status = 0;
+  for (const Error& error : app.errors()) status = std::max(status, fail(error));
+  return status;
+}
+
+int run_window(App& app, Platform& platform) {
+  while (!platform.should_close() && !app.wants_to_close()) {
+    platform.wait_events(app.patience());
+    app.frame();
+  }
+  return 0;
+}
+
+int run(const ViewerOptions& options) {
+  const Result<std::unique_ptr<Platform>> platform =
+      make_platform({"patchlab", options.width, options.height, options.headless, options.scale});
+  if (!platform) return fail(platform.error());
+  Result<Renderer> renderer = Renderer::create();
+  if (!renderer) return fail(renderer.error());
+  // A picture of a journal leaves the journal as it is.
+  const bool keeps_journals = !options.headless || options.replay;
+  App app(**platform, std::move(*renderer), {options.theme, default_journal_folder(), keeps_journals});
+  for (const std::filesystem::path& file : options.files) app.open(file);
+  const bool without_user = options.headless || options.screenshot;
+  return without_user ? run_without_user(options, app, **platform) : run_window(app, **platform);
+}
+
+}  // namespace
+
+}  // namespace patchlab::viewer
+
+int main(int argc, char** argv) {
+  using namespace patchlab::viewer;
+  const std::variant<ViewerOptions, Exit> parsed = parse_options(argc, argv);
+  if (const Exit* exit = std::get_if<Exit>(&parsed)) {
+    std::fputs(exit->text.c_str(), exit->status == 0 ? stdout : stderr);
+    return exit->status;
+  }
+  return run(std::get<ViewerOptions>(parsed));
+}

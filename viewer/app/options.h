@@ -1,0 +1,31 @@
+// The command line of patchlab-viewer.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "viewer/panel/view_state.h"
+
+namespace patchlab::viewer {
+
+struct ViewerOptions {
+  std::vector<std::filesystem::path> files;  // scans and journals
+  std::optional<std::filesystem::path> replay, screenshot;
+  int width = 1440, height = 900;
+  bool headless = false;
+  float scale = 0.0f;  // 0: from the monitor
+  ThemeChoice theme = ThemeChoice::dark;
+  std::vector<ExportRequest> exports;
+};
+
+// What to do, or text to print and the status to exit with (help, version, wrong usage).
+struct Exit {
+  int status = 0;
+  std::string text;
+};
+std::variant<ViewerOptions, Exit> parse_options(int argc, const char* const* argv);
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,148 @@
+#include "viewer/app/patch_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/chi_square.h"
+#include "engine/mesh/patch_mesh.h"
+#include "engine/patch/marginals.h"
+#include "viewer/app/shapes.h"
+#include "viewer/panel/colours.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// How much of a patch's size the exaggerated shapes may take.
+constexpr double ellipsoid_room = 0.22, band_room = 0.08, cone_room = 0.30 /* rad */;
+constexpr double axis_length = 0.62;
+constexpr int band_points = 128;
+constexpr float surface_alpha = 0.80f;
+
+double size_of(const Patch& patch) { return extent(boundary(patch)).maxCoeff(); }
+
+void add_axes(const Patch& patch, const Vector3d& origin, const Theme& theme, float scale,
+              PatchScene& scene) {
+  const Vector3d c = centre(patch);
+  const Eigen::Matrix3d R = axes(patch);
+  const double length = axis_length * size_of(patch);
+  const struct {
+    const char* text;
+    Rgba colour;
+  } axis[] = {{"x", theme.axis_x}, {"y", theme.axis_y}, {"z", theme.axis_z}};
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d tip = c + length * R.col(k);
+    scene.lines.push_back({about({c, tip}, origin), axis[k].colour, 2.5f * scale, false, true, 0.55f});
+    scene.tips.push_back({c + 1.08 * length * R.col(k), axis[k].text, axis[k].colour});
+  }
+}
+
+void add_ellipsoid(const Patch& patch, const Vector3d& origin, const Theme& theme, float scale,
+                   PatchScene& scene) {
+  const Ellipsoid shape = centre_ellipsoid(patch, shown_probability);
+  const int times = exaggeration(shape.half_lengths.maxCoeff(), ellipsoid_room * size_of(patch));
+  scene.meshes.push_back(ellipsoid_mesh(shape, times, origin, theme.ellipsoid));
+  for (LineItem& rim : ellipsoid_rims(shape, times, origin, theme.ellipsoid_rim, 1.25f * scale)) {
+    scene.lines.push_back(std::move(rim));
+  }
+  scene.notes.push_back("95 % ellipsoid of the centre, " + exaggeration_words(times, "larger"));
+}
+
+std::string add_cone(const Patch& patch, const Vector3d& origin, const Theme& theme, float scale,
+                     PatchScene& scene) {
+  const NormalCone cone = normal_cone(patch, shown_probability);
+  const int times = exaggeration(cone.half_angles.maxCoeff(), cone_room);
+  const std::vector<Vector3d> rim = cone_rim(cone, times, axis_length * size_of(patch));
+  scene.meshes.push_back(cone_mesh(cone, rim, origin, with_alpha(theme.axis_z, 0.22f)));
+  scene.lines.push_back(
+      {about(rim, origin), with_alpha(theme.axis_z, 0.9f), 1.25f * scale, true, true, 0.5f});
+  return "95 % cone of the normal, " + exaggeration_words(times, "wider");
+}
+
+std::string add_band(const Patch& patch, const Vector3d& origin, const Rgba& colour, PatchScene& scene) {
+  const std::vector<BandPoint> band = outline_band(patch, band_points);
+  double widest = 0;
+  for (const BandPoint& point : band) widest = std::max(widest, point.sigma);
+  const double k = two_sided_normal_quantile(shown_probability);
+  const int times = exaggeration(k * widest, band_room * size_of(patch));
+  std::vector<double> outwards, inwards;
+  for (const BandPoint& point : band) {
+    outwards.push_back(times * k * point.sigma);
+    inwards.push_back(-times * k * point.sigma);
+  }
+  scene.meshes.push_back(strip_mesh(offset_curve(patch, outwards), offset_curve(patch, inwards), origin,
+                                    with_alpha(colour, 0.38f)));
+  return "95 % band of the outline, " + exaggeration_words(times, "wider");
+}
+
+}  // namespace
+
+int exaggeration(double size, double room) {
+  int chosen = 1;
+  for (int decade = 1; decade <= 10'000; decade *= 10) {
+    for (const int step : {1, 2, 5}) {
+      if (size * step * decade <= room) chosen = step * decade;
+    }
+  }
+  return chosen;
+}
+
+std::string exaggeration_words(int times, const char* larger) {
+  return times == 1 ? "at true size" : "drawn " + std::to_string(times) + " times " + larger;
+}
+
+SurfaceMesh surface_item(const Patch& patch, const Vector3d& origin, const std::optional<Rgba>& flat) {
+  const TriangleMesh mesh = surface_mesh(patch);
+  SurfaceMesh surface;
+  std::vector<double> sigma(mesh.n_vertices(), 0.0);
+  if (!flat && patch.covariance_local) {
+    const std::vector<Vector2d> u = surface_coordinates(patch);
+    std::transform(u.begin(), u.end(), sigma.begin(),
+                   [&patch](const Vector2d& at) { return height_sigma(patch, at); });
+    const auto [least, largest] = std::minmax_element(sigma.begin(), sigma.end());
+    surface.height_sigma = Eigen::Vector2d(*least, *largest);
+  }
+  const double least = surface.height_sigma ? surface.height_sigma->x() : 0.0;
+  const double range = surface.height_sigma ? std::max(surface.height_sigma->y() - least, 1e-12) : 1.0;
+  std::vector<MeshVertex> vertices;
+  vertices.reserve(mesh.n_vertices());
+  for (const auto vertex : mesh.vertices()) {
+    const auto& p = mesh.point(vertex);
+    const auto& n = mesh.normal(vertex);
+    const double part = (sigma[static_cast<std::size_t>(vertex.idx())] - least) / range;
+    const Rgba colour = flat ? *flat : with_alpha(sequential(part), surface_alpha);
+    vertices.push_back({(Vector3d(p[0], p[1], p[2]) - origin).cast<float>(),
+                        Vector3d(n[0], n[1], n[2]).cast<float>(), to_bytes(colour)});
+  }
+  std::vector<std::uint32_t> triangles;
+  for (const auto face : mesh.faces()) {
+    for (const auto vertex : face.vertices()) triangles.push_back(static_cast<std::uint32_t>(vertex.idx()));
+  }
+  surface.item = {std::make_shared<const std::vector<MeshVertex>>(std::move(vertices)),
+                  std::make_shared<const std::vector<std::uint32_t>>(std::move(triangles)), true};
+  return surface;
+}
+
+LineItem outline_item(const Patch& patch, const Vector3d& origin, const Rgba& colour, float width) {
+  return {about(outline_curve(patch), origin), colour, width, true, true, 0.45f};
+}
+
+PatchScene chosen_patch(const Patch& patch, const Vector3d& origin, const Layers& layers, const Theme& theme,
+                        const Rgba& colour, float scale) {
+  PatchScene scene;
+  scene.lines.push_back(outline_item(patch, origin, colour, 3.0f * scale));
+  if (layers.axes) add_axes(patch, origin, theme, scale, scene);
+  if (!patch.covariance_local) return scene;
+  std::vector<std::string> others;
+  if (layers.ellipsoid) add_ellipsoid(patch, origin, theme, scale, scene);
+  if (layers.cone) others.push_back(add_cone(patch, origin, theme, scale, scene));
+  if (layers.band) others.push_back(add_band(patch, origin, colour, scene));
+  std::string line;
+  for (const std::string& note : others) line += (line.empty() ? "" : "  ·  ") + note;
+  if (!line.empty()) scene.notes.push_back(line);
+  return scene;
+}
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,96 @@
+#include "viewer/app/point_scene.h"
+
+#include <array>
+
+#include "viewer/panel/colours.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+constexpr double residual_reach = 3.0;  // standard deviations at the ends of the residual colours
+
+void paint_base(const PointScene& in, const ScanEntry& entry, const Shades& shades,
+                std::vector<Rgba8>& colours) {
+  std::array<Rgba8, 256> by_shade;
+  for (std::size_t i = 0; i < by_shade.size(); ++i) {
+    by_shade[i] = to_bytes(mix(in.theme.point_dark, in.theme.point_lit, static_cast<float>(i) / 255.0f));
+  }
+  const Scan& scan = *entry.scan;
+  const bool photo = in.state.colours == PointColours::photo && !scan.colours.empty();
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    if (photo)
+      colours[i] = {scan.colours[i][0], scan.colours[i][1], scan.colours[i][2], 255};
+    else
+      colours[i] = by_shade[shades ? (*shades)[i] : 160];
+  }
+}
+
+void paint(const std::shared_ptr<const std::vector<std::uint32_t>>& ids, const Rgba8& colour,
+           std::vector<Rgba8>& colours) {
+  if (!ids) return;
+  for (const std::uint32_t id : *ids)
+    if (id < colours.size()) colours[id] = colour;
+}
+
+void tint(const std::vector<std::uint32_t>& ids, const Rgba& colour, std::vector<Rgba8>& colours) {
+  for (const std::uint32_t id : ids) {
+    if (id >= colours.size()) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      colours[id][k] = static_cast<std::uint8_t>(0.5f * colours[id][k] + 0.5f * 255.0f * colour[k]);
+    }
+  }
+}
+
+void paint_residuals(const PatchEntry& entry, double neutral_lightness, std::vector<Rgba8>& colours) {
+  const std::vector<double>& residuals = entry.fit->report.residuals;
+  for (std::size_t i = 0; i < residuals.size() && i < entry.points->size(); ++i) {
+    const std::uint32_t id = (*entry.points)[i];
+    if (id < colours.size())
+      colours[id] = to_bytes(diverging(residuals[i] / residual_reach, neutral_lightness));
+  }
+}
+
+void paint_outliers(const PatchEntry& entry, const Rgba& colour, std::vector<Rgba8>& colours) {
+  for (const std::uint32_t index : entry.fit->report.outliers) {
+    if (index < entry.points->size() && (*entry.points)[index] < colours.size()) {
+      colours[(*entry.points)[index]] = to_bytes(colour);
+    }
+  }
+}
+
+}  // namespace
+
+const RegionEntry* lit_region(const Document& document, const std::string& selected) {
+  const PatchEntry* patch = find_patch(document, selected);
+  return find_region(document, patch ? patch->region : selected);
+}
+
+Shared<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, const Shades& shades) {
+  auto colours = std::make_shared<std::vector<Rgba8>>(entry.scan->size());
+  paint_base(in, entry, shades, *colours);
+  const RegionEntry* lit = lit_region(in.document, in.state.selected);
+  for (const RegionEntry& region : in.document.regions) {
+    if (region.scan != entry.id || !region.visible || !region.points || &region == lit) continue;
+    tint(*region.points, category_colour(region.id), *colours);
+  }
+  if (lit && lit->scan == entry.id) paint(lit->points, to_bytes(in.theme.point_selected), *colours);
+  const PatchEntry* patch = find_patch(in.document, in.state.selected);
+  if (patch && patch->scan == entry.id && patch->fit && patch->points) {
+    if (in.state.colours == PointColours::residual)
+      paint_residuals(*patch, in.theme.neutral_lightness, *colours);
+    paint_outliers(*patch, in.theme.point_outlier, *colours);
+  }
+  return colours;
+}
+
+Shared<Eigen::Vector3f> point_positions(const std::shared_ptr<const Scan>& scan,
+                                        const Eigen::Vector3d& origin) {
+  if (scan->origin == origin) return {scan, &scan->positions};
+  auto moved = std::make_shared<std::vector<Eigen::Vector3f>>(scan->positions);
+  const Eigen::Vector3f by = (scan->origin - origin).cast<float>();
+  for (Eigen::Vector3f& position : *moved) position += by;
+  return moved;
+}
+
+}  // namespace patchlab::viewer

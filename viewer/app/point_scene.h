@@ -1,0 +1,35 @@
+// The points of a scan in the colours that say what they are: shaded, selected, in other regions, outliers,
+// residuals.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "engine/project/document.h"
+#include "viewer/panel/view_state.h"
+#include "viewer/render/scene.h"
+
+namespace patchlab::viewer {
+
+// The shades of a scan, made once (viewer/app/point_shades.h) and shared.
+using Shades = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+struct PointScene {
+  const Document& document;
+  const ViewState& state;
+  const Theme& theme;
+};
+
+// Region whose points are lit: the selected one, or that of the selected patch; nullptr where there is none.
+const RegionEntry* lit_region(const Document& document, const std::string& selected);
+
+// `shades` may be null: all points are drawn alike then.
+Shared<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, const Shades& shades);
+
+// The positions about another origin; the scan's own array where the origins agree.
+Shared<Eigen::Vector3f> point_positions(const std::shared_ptr<const Scan>& scan,
+                                        const Eigen::Vector3d& origin);
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,16 @@
+// How bright each point of a scan is drawn, so that its shape can be seen: lit from the sensor where the
+// points have neighbours to make normals of, and darker with distance.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/scan/scan.h"
+
+namespace patchlab::viewer {
+
+// 0..255 a point; 0 where it is not finite. Quick for organised scans (normals by differences on the pixel
+// grid); others get normals from their neighbours up to `normals_limit` points, and distance alone above it.
+std::vector<std::uint8_t> point_shades(const Scan& scan, std::size_t normals_limit = 300'000);
+
+}  // namespace patchlab::viewer

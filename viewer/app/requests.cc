@@ -1,0 +1,215 @@
+#include <algorithm>
+
+#include "viewer/app/app.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+constexpr float least_scale = 0.5f, largest_scale = 4.0f, scale_step = 1.1f;
+constexpr float least_point = 1.0f, largest_point = 12.0f, point_step = 0.5f;
+
+// The folder that a file dialog starts in.
+std::filesystem::path folder_for(const Document& document, const FileDialog& files) {
+  if (!files.folder().empty()) return files.folder();
+  if (!document.scans.empty() && document.scans.back().scan) {
+    return std::filesystem::absolute(document.scans.back().scan->file).parent_path();
+  }
+  std::error_code error;
+  return std::filesystem::current_path(error);
+}
+
+std::string stem_of(const Document& document) {
+  return document.scans.empty() ? "patches"
+                                : std::filesystem::path(document.scans.back().name).stem().string();
+}
+
+}  // namespace
+
+void App::answer(const Requests& requests) {
+  for (const Action action : requests.actions) act(action);
+  for (const Command& command : requests.commands) workbench_.run(command);
+  if (requests.select) select(*requests.select);
+  if (requests.surface) choose_surface(*requests.surface);
+  if (requests.history_position) workbench_.go_to(*requests.history_position);
+  if (requests.open) open(*requests.open);
+  if (requests.save_journal) workbench_.save_journal(*requests.save_journal);
+  if (requests.export_to) workbench_.write_patches(*requests.export_to);
+  if (requests.cancel_work) workbench_.cancel_work();
+}
+
+void App::act(Action action) {
+  if (choose(action) || act_on_contour_and_fit(action) || act_on_view(action)) return;
+  act_on_document(action);
+}
+
+bool App::choose(Action action) {
+  if (const auto tool = tool_of(action))
+    state_.tool = *tool;
+  else if (const auto mode = mode_of(action))
+    state_.mode = *mode;
+  else if (const auto surface = surface_of(action))
+    choose_surface(*surface);
+  else if (const auto layer = layer_of(action))
+    state_.layers.*layer = !(state_.layers.*layer);
+  else if (const auto colours = colours_of(action)) {
+    const bool off = *colours == PointColours::residual && state_.colours == PointColours::residual;
+    state_.colours = off ? PointColours::shading : *colours;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool App::act_on_contour_and_fit(Action action) {
+  switch (action) {
+    case Action::last_vertex:
+      lasso(lasso_.backspace());
+      return true;
+    case Action::cancel:
+      cancel();
+      return true;
+    case Action::keep:
+      keep();
+      return true;
+    case Action::robust:
+      state_.robust = !state_.robust;
+      choose_surface(state_.surface);
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool App::act_on_view(Action action) {
+  const Document& document = workbench_.document();
+  const auto point_size = [this](float step) {
+    state_.point_size = std::clamp(state_.point_size + step, least_point, largest_point);
+  };
+  switch (action) {
+    case Action::home:
+      stage_.frame_all(document, aspect());
+      return true;
+    case Action::frame_selection:
+      stage_.frame(document, state_.selected, aspect());
+      return true;
+    case Action::sensor_view:
+      view_of_sensor();
+      return true;
+    case Action::perspective:
+      stage_.camera.perspective = state_.perspective = !state_.perspective;
+      return true;
+    case Action::larger_points:
+      point_size(point_step);
+      return true;
+    case Action::smaller_points:
+      point_size(-point_step);
+      return true;
+    case Action::theme:
+      state_.theme = state_.theme == ThemeChoice::dark ? ThemeChoice::light : ThemeChoice::dark;
+      return true;
+    case Action::larger_interface:
+      scale_interface(platform_.scale() * scale_step);
+      return true;
+    case Action::smaller_interface:
+      scale_interface(platform_.scale() / scale_step);
+      return true;
+    case Action::normal_interface:
+      scale_interface(1.0f);
+      return true;
+    default:
+      return false;
+  }
+}
+
+void App::act_on_document(Action action) {
+  const Document& document = workbench_.document();
+  switch (action) {
+    case Action::open_file:
+      memory_.files.show(FilePurpose::open, folder_for(document, memory_.files));
+      break;
+    case Action::save_journal_as:
+      memory_.files.show(FilePurpose::save_journal, folder_for(document, memory_.files),
+                         stem_of(document) + ".patchlab");
+      break;
+    case Action::export_patches:
+      memory_.files.show(FilePurpose::export_patches, folder_for(document, memory_.files),
+                         stem_of(document) + ".json");
+      break;
+    case Action::quit:
+      close_ = true;
+      break;
+    case Action::undo:
+      workbench_.undo();
+      break;
+    case Action::redo:
+      workbench_.redo();
+      break;
+    case Action::remove:
+      remove_selected();
+      break;
+    case Action::rename:
+      rename_selected();
+      break;
+    case Action::help:
+      memory_.help = true;
+      break;
+    default:
+      break;
+  }
+}
+
+// The contour first, then the fit that is not kept, then the tool.
+void App::cancel() {
+  if (lasso_.drawing()) return lasso(lasso_.escape());
+  if (!state_.draft.empty()) {
+    const RegionEntry* region = lit_region(workbench_.document(), state_.selected);
+    const std::string shown = region ? region->id : std::string();
+    workbench_.discard();
+    state_.selected = shown;
+    return;
+  }
+  state_.tool = Tool::orbit;
+}
+
+void App::keep() {
+  if (lasso_.drawing()) return lasso(lasso_.enter());
+  workbench_.keep();
+}
+
+void App::remove_selected() {
+  if (state_.selected == state_.draft) return cancel();
+  workbench_.run(Delete{state_.selected});
+}
+
+void App::rename_selected() {
+  const Document& document = workbench_.document();
+  if (const PatchEntry* patch = find_patch(document, state_.selected))
+    memory_.new_name = patch->name;
+  else if (const RegionEntry* region = find_region(document, state_.selected))
+    memory_.new_name = region->name;
+  else if (const ScanEntry* scan = find_scan(document, state_.selected))
+    memory_.new_name = scan->name;
+  else
+    return;
+  if (state_.selected != state_.draft) memory_.renaming = state_.selected;
+}
+
+void App::choose_surface(SurfaceRequest surface) {
+  state_.surface = surface;
+  workbench_.choose({surface, state_.robust});
+}
+
+void App::select(const std::string& id) {
+  state_.selected = id;
+  workbench_.focus(id);
+}
+
+void App::view_of_sensor() {
+  const std::vector<ScanEntry>& scans = workbench_.document().scans;
+  if (!scans.empty() && scans.back().scan) stage_.view_of_sensor(*scans.back().scan, aspect());
+}
+
+void App::scale_interface(float scale) { wanted_scale_ = std::clamp(scale, least_scale, largest_scale); }
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,166 @@
+#include "viewer/app/stage.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "viewer/app/boxes.h"
+#include "viewer/panel/colours.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+constexpr double flight_seconds = 0.22;
+constexpr double sensor_fov = 0.80;  // rad, where the scan does not say its own
+
+double fov_of(const Scan& scan) {
+  if (!scan.intrinsics || scan.height < 2) return sensor_fov;
+  return 2 * std::atan(0.5 * scan.height / (*scan.intrinsics)[1]);
+}
+
+}  // namespace
+
+void Stage::update(const Document& document, const ViewState& state, std::uint64_t generation, float scale) {
+  const Drawn wanted{generation,   state.selected,   state.theme, state.colours,
+                     state.layers, state.point_size, scale,       shades_made_};
+  if (drawn_ == wanted) return;
+  drawn_ = wanted;
+  const Theme colours = theme(state.theme);
+  scene_ = {};
+  notes_ = {};
+  tips_.clear();
+  scene_.background_top = colours.view_top;
+  scene_.background_bottom = colours.view_bottom;
+  if (!document.scans.empty() && document.scans.front().scan)
+    scene_.origin = document.scans.front().scan->origin;
+  const PointScene in{document, state, colours};
+  add_points(in, scale);
+  add_patches(in, scale);
+  notes_.residual_colours = state.colours == PointColours::residual && find_patch(document, state.selected);
+}
+
+void Stage::add_points(const PointScene& in, float scale) {
+  for (const ScanEntry& entry : in.document.scans) {
+    if (!entry.visible || !entry.scan) continue;
+    const auto shades = shades_.find(entry.scan.get());
+    scene_.points.push_back({point_positions(entry.scan, scene_.origin),
+                             point_colours(in, entry, shades == shades_.end() ? nullptr : shades->second),
+                             in.state.point_size * scale});
+  }
+}
+
+void Stage::add_patches(const PointScene& in, float scale) {
+  for (const PatchEntry& entry : in.document.patches) {
+    if (!entry.visible || !entry.fit) continue;
+    const bool chosen = entry.id == in.state.selected;
+    const Rgba colour = category_colour(entry.region);
+    if (in.state.layers.surface) {
+      const SurfaceMesh& surface =
+          surface_of(entry, chosen ? std::nullopt : std::optional(with_alpha(colour, 0.45f)));
+      scene_.meshes.push_back(surface.item);
+      if (chosen) notes_.height_sigma = surface.height_sigma;
+    }
+    if (!chosen) {
+      scene_.lines.push_back(outline_item(entry.fit->patch, scene_.origin, colour, 2.0f * scale));
+      continue;
+    }
+    PatchScene patch =
+        chosen_patch(entry.fit->patch, scene_.origin, in.state.layers, in.theme, colour, scale);
+    scene_.meshes.insert(scene_.meshes.end(), patch.meshes.begin(), patch.meshes.end());
+    scene_.lines.insert(scene_.lines.end(), patch.lines.begin(), patch.lines.end());
+    tips_ = std::move(patch.tips);
+    notes_.lines = std::move(patch.notes);
+  }
+}
+
+const SurfaceMesh& Stage::surface_of(const PatchEntry& entry, const std::optional<Rgba>& flat) {
+  KnownSurface& known = surfaces_[entry.id];
+  const Rgba wanted = flat.value_or(Rgba{});
+  if (known.fit != entry.fit || known.coloured != !flat || known.flat != wanted) {
+    known = {entry.fit, !flat, wanted, surface_item(entry.fit->patch, scene_.origin, flat)};
+  }
+  return known.mesh;
+}
+
+SceneNotes Stage::notes(const ViewCamera& view) const {
+  SceneNotes notes = notes_;
+  notes.metres_per_pixel = 2 * camera.distance * std::tan(0.5 * camera.fov_y) / view.viewport[1];
+  for (const AxisTip& tip : tips_) {
+    const Projected seen = project(view, tip.position);
+    if (seen.depth > view.near_plane) notes.labels.push_back({{seen.x, seen.y}, tip.text, tip.colour});
+  }
+  return notes;
+}
+
+void Stage::set_shades(const std::shared_ptr<const Scan>& scan, Shades shades) {
+  shades_[scan.get()] = std::move(shades);
+  ++shades_made_;
+}
+
+void Stage::fly_to(const OrbitCamera& to) { flight_ = Flight{camera, to, 0.0}; }
+
+bool Stage::fly(double seconds) {
+  if (!flight_) return false;
+  flight_->part = std::min(1.0, flight_->part + seconds / flight_seconds);
+  const double eased = flight_->part * flight_->part * (3 - 2 * flight_->part);
+  camera = between(flight_->from, flight_->to, eased);
+  if (flight_->part == 1.0) settle();
+  return flight_.has_value();
+}
+
+void Stage::settle() {
+  if (flight_) camera = flight_->to;
+  flight_.reset();
+}
+
+void Stage::view_of_sensor(const Scan& scan, double aspect) {
+  OrbitCamera to = target();
+  const std::optional<double> depth = depth_seen_by_sensor(scan);
+  if (depth) {
+    to = from_sensor(scan.viewpoint, *depth, fov_of(scan));
+    to.perspective = camera.perspective;
+  } else if (const std::optional<Bounds> box = bounds(scan)) {
+    to.up = Eigen::Vector3d::UnitZ();
+    to.azimuth = 0.6;
+    to.elevation = 0.5;
+    to.frame(box->min, box->max, aspect);
+  }
+  fly_to(to);
+}
+
+void Stage::frame_all(const Document& document, double aspect) {
+  const std::optional<Bounds> box = box_of(document);
+  if (!box) return;
+  OrbitCamera to = target();
+  to.frame(box->min, box->max, aspect);
+  fly_to(to);
+}
+
+void Stage::frame(const Document& document, const std::string& id, double aspect) {
+  const std::optional<Bounds> box = box_of(document, id);
+  if (!box) return;
+  OrbitCamera to = target();
+  to.frame(box->min, box->max, aspect);
+  to.distance *= 1.5;
+  fly_to(to);
+}
+
+void Stage::look_along(const ViewCamera& view, const Document& document, const std::string& id,
+                       double aspect) {
+  const auto& q = view.quaternion_xyzw;
+  const Eigen::Vector3d outwards = Eigen::Quaterniond(q[3], q[0], q[1], q[2]) * Eigen::Vector3d::UnitZ();
+  OrbitCamera to = target();
+  turn_towards(to, outwards);
+  to.fov_y = view.fov_y;
+  flight_ = Flight{to, to, 0.0};
+  frame(document, id, aspect);
+  settle();
+}
+
+void Stage::set_pivot(const Eigen::Vector3d& pivot) {
+  OrbitCamera to = target();
+  to.pivot = pivot;
+  fly_to(to);
+}
+
+}  // namespace patchlab::viewer

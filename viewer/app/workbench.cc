@@ -1,0 +1,103 @@
+#include "viewer/app/workbench.h"
+
+#include <utility>
+
+namespace patchlab::viewer {
+
+Workbench::Workbench(WorkbenchOptions options, std::function<void()> wake)
+    : options_(std::move(options)), worker_(std::move(wake)) {}
+
+void Workbench::enqueue(std::function<void()> step) {
+  steps_.push_back(std::move(step));
+  start_next();
+}
+
+void Workbench::start_next() {
+  while (!order_runs_ && !steps_.empty()) {
+    const std::function<void()> step = std::move(steps_.front());
+    steps_.pop_front();
+    step();
+  }
+}
+
+void Workbench::order(const std::string& name, Worker::Job job) {
+  order_runs_ = true;
+  worker_.order(name, [this, job = std::move(job)](const Progress& progress) -> Worker::Finish {
+    return [this, finish = job(progress)] {
+      order_runs_ = false;
+      if (finish) finish();
+      start_next();
+    };
+  });
+}
+
+void Workbench::in_background(std::function<Worker::Finish()> work) {
+  worker_.order({}, [work = std::move(work)](const Progress&) { return work(); });
+}
+
+bool Workbench::deliver() { return worker_.deliver(); }
+
+std::optional<Busy> Workbench::busy() const {
+  const std::optional<Worker::Status> status = worker_.running_order();
+  if (!status || status->name.empty()) return std::nullopt;
+  return Busy{status->name, status->fraction};
+}
+
+void Workbench::report(const Error& error) {
+  if (error.code != ErrorCode::cancelled) errors_.push_back(error);
+}
+
+void Workbench::record(const Command& command, Document after) {
+  if (const Result<void> done = session_.record(command, std::move(after)); !done) report(done.error());
+  after_change();
+}
+
+void Workbench::run_now(const Command& command) {
+  if (const Result<void> done = session_.run(command); !done) report(done.error());
+  after_change();
+}
+
+void Workbench::after_change() {
+  drop_draft();
+  if (!find_region(session_.document(), region_)) region_.clear();
+}
+
+void Workbench::drop_draft() {
+  worker_.drop_previews();
+  draft_.reset();
+  keep_when_ready_ = false;
+  currency_ = Currency::nothing;
+  fit_message_.clear();
+  ++changes_;
+}
+
+void Workbench::run(Command command) {
+  enqueue([this, command = std::move(command)] { run_now(command); });
+}
+
+void Workbench::undo() {
+  enqueue([this] {
+    if (!session_.can_undo()) return;
+    run_now(Undo{});
+    refit_open_region();
+  });
+}
+
+void Workbench::redo() {
+  enqueue([this] {
+    if (session_.can_redo()) run_now(Redo{});
+  });
+}
+
+void Workbench::go_to(std::size_t position) {
+  enqueue([this, position] {
+    while (session_.position() > position && session_.can_undo()) run_now(Undo{});
+    while (session_.position() < position && session_.can_redo()) run_now(Redo{});
+  });
+}
+
+std::vector<Error> Workbench::take_errors() { return std::exchange(errors_, {}); }
+std::vector<std::string> Workbench::take_notices() { return std::exchange(notices_, {}); }
+std::optional<std::string> Workbench::take_selection() { return std::exchange(selection_, std::nullopt); }
+
+}  // namespace patchlab::viewer

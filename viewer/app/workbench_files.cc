@@ -1,0 +1,102 @@
+// The files of a workbench: scans and journals in, patches and journals out.
+#include "viewer/app/journal_file.h"
+#include "viewer/app/workbench.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+ApplyOptions with_progress(const Progress& progress) {
+  ApplyOptions options;
+  options.progress = progress;
+  return options;
+}
+
+}  // namespace
+
+void Workbench::open(const std::filesystem::path& file) {
+  enqueue([this, file] { file.extension() == ".patchlab" ? open_journal(file) : open_scan(file); });
+}
+
+void Workbench::open_journal(const std::filesystem::path& file) {
+  order("opening " + file.filename().string(), [this, file](const Progress& progress) -> Worker::Finish {
+    auto opened = std::make_shared<Result<Session>>(options_.keep_journals
+                                                        ? Session::open(file, with_progress(progress))
+                                                        : replayed_session(file, progress));
+    return [this, opened] {
+      if (!*opened) return report(opened->error());
+      session_ = std::move(**opened);
+      after_change();
+      const Document& document = session_.document();
+      if (!document.patches.empty()) focus(document.patches.back().id);
+      selection_ = !document.patches.empty() ? document.patches.back().id
+                   : !document.scans.empty() ? document.scans.back().id
+                                             : std::string();
+    };
+  });
+}
+
+void Workbench::open_scan(const std::filesystem::path& file) {
+  OpenScan command;
+  command.id = free_id(session_.document(), "scan");
+  command.file = std::filesystem::absolute(file).lexically_normal().string();
+  order("opening " + file.filename().string(),
+        [this, command, before = session_.document()](const Progress& progress) -> Worker::Finish {
+          Command wanted = command;
+          auto after = std::make_shared<Result<Document>>(apply(before, wanted, with_progress(progress)));
+          return [this, wanted, after] {
+            if (!*after) return report(after->error());
+            record_scan(std::get<OpenScan>(wanted), std::move(**after));
+          };
+        });
+}
+
+void Workbench::record_scan(OpenScan command, Document after) {
+  if (options_.keep_journals && session_.journal().empty()) {
+    if (const Result<void> begun = begin_journal(command.file); !begun) {
+      report(begun.error());
+      notices_.push_back("Nothing is being saved: the journal cannot be written.");
+    }
+  }
+  command.file = session_.scan_file(command.file);
+  const std::string id = command.id;
+  for (const ScanEntry& entry : after.scans) {
+    if (entry.id != id || !entry.scan) continue;
+    notices_.insert(notices_.end(), entry.scan->notices.begin(), entry.scan->notices.end());
+  }
+  record(command, std::move(after));
+  if (find_scan(session_.document(), id)) selection_ = id;
+}
+
+Result<void> Workbench::begin_journal(const std::filesystem::path& scan) {
+  const Result<std::filesystem::path> journal = new_journal_path(options_.journals, scan);
+  if (!journal) return journal.error();
+  Result<Session> session = Session::open(*journal);
+  if (!session) return session.error();
+  session_ = std::move(*session);
+  return {};
+}
+
+void Workbench::write_patches(const ExportRequest& request) {
+  enqueue([this, request] {
+    order("exporting",
+          [this, request, document = session_.document(),
+           journal = session_.journal()](const Progress&) -> Worker::Finish {
+            const Result<void> written = export_patches(document, journal, request.format, request.file);
+            return [this, written, request] {
+              if (!written) return report(written.error());
+              notices_.push_back("The patches are in " + request.file.string() + ".");
+            };
+          });
+  });
+}
+
+void Workbench::save_journal(const std::filesystem::path& file) {
+  enqueue([this, file] {
+    if (const Result<void> copied = copy_journal(session_.journal(), file); !copied)
+      return report(copied.error());
+    notices_.push_back("A copy of the journal is in " + file.string() + ".");
+  });
+}
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,121 @@
+#include "viewer/panel/actions.h"
+
+#include <algorithm>
+#include <array>
+
+#include "viewer/platform/key.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+constexpr bool kCtrl = true, kShift = true;
+
+constexpr ActionRow kActions[] = {
+    {Action::open_file, Menu::file, "Open...", "a scan, or a journal to go on with", 'O', kCtrl},
+    {Action::save_journal_as, Menu::file, "Save journal as...", "a copy of all that was done so far", 'S',
+     kCtrl, kShift},
+    {Action::export_patches, Menu::file, "Export patches...",
+     "the kept patches, for a robot or another program", 'E', kCtrl},
+    {Action::quit, Menu::file, "Quit", "nothing is lost: every step is saved as it happens", 'Q', kCtrl},
+
+    {Action::undo, Menu::edit, "Undo", "takes the last step back, whatever it was", 'Z', kCtrl},
+    {Action::redo, Menu::edit, "Redo", "does it again", 'Z', kCtrl, kShift},
+    {Action::remove, Menu::edit, "Delete", "the chosen patch, region or scan", key::del},
+    {Action::rename, Menu::edit, "Rename", "the chosen patch, region or scan", key::f2},
+
+    {Action::orbit_tool, Menu::select, "Orbit", "the left button turns the view", 'O'},
+    {Action::lasso_tool, Menu::select, "Lasso", "drag to draw, click for corners", 'L'},
+    {Action::mode_set, Menu::select, "Set", "a new contour replaces the selection"},
+    {Action::mode_add, Menu::select, "Add", "a new contour adds to the selection (Shift)"},
+    {Action::mode_subtract, Menu::select, "Subtract", "a new contour takes away from the selection (Ctrl)"},
+    {Action::mode_intersect, Menu::select, "Intersect",
+     "only what is also in a new contour stays (Shift+Ctrl)"},
+    {Action::last_vertex, Menu::select, "Take last corner back", "while drawing", key::backspace},
+    {Action::cancel, Menu::select, "Cancel", "the contour first, then the fit, then the tool", key::escape},
+
+    {Action::fit_automatic, Menu::fit, "Automatic", "all surfaces, the best one is chosen", '0', false, false,
+     key::pad_0},
+    {Action::fit_paraboloid, Menu::fit, "Paraboloid",
+     "elliptic, hyperbolic, cylindric or circular, or a plane", '1', false, false, key::pad_0 + 1},
+    {Action::fit_plane, Menu::fit, "Plane", "with the outline that suits the points", '2', false, false,
+     key::pad_0 + 2},
+    {Action::fit_sphere, Menu::fit, "Sphere", "with a circular outline", '3', false, false, key::pad_0 + 3},
+    {Action::fit_cylinder, Menu::fit, "Cylinder", "circular, with a rectangular outline", '4', false, false,
+     key::pad_0 + 4},
+    {Action::robust, Menu::fit, "Reject outliers",
+     "points that do not belong to the surface are flagged and left out", 'R'},
+    {Action::keep, Menu::fit, "Keep patch", "closes an open contour, then keeps the fitted patch", key::enter,
+     false, false, key::pad_enter},
+
+    {Action::home, Menu::view, "Frame all", "everything in view", key::home},
+    {Action::frame_selection, Menu::view, "Frame selection", "the chosen patch, region or scan", 'F'},
+    {Action::sensor_view, Menu::view, "View of the sensor", "from where the scan was taken", 'V'},
+    {Action::perspective, Menu::view, "Perspective", "or parallel projection", '5'},
+    {Action::colour_shading, Menu::view, "Points shaded", "grey, by how they face the sensor"},
+    {Action::colour_photo, Menu::view, "Points in their own colours", "where the scan has them"},
+    {Action::colour_residual, Menu::view, "Residuals on points",
+     "signed distance to the patch in standard deviations", 'C'},
+    {Action::larger_points, Menu::view, "Larger points", "", ']'},
+    {Action::smaller_points, Menu::view, "Smaller points", "", '['},
+    {Action::show_surface, Menu::view, "Surface", "coloured by the standard deviation of its height"},
+    {Action::show_ellipsoid, Menu::view, "Ellipsoid of the centre", "95 %"},
+    {Action::show_cone, Menu::view, "Cone of the normal", "95 %"},
+    {Action::show_band, Menu::view, "Band of the outline", "95 %"},
+    {Action::show_axes, Menu::view, "Local axes", "of the chosen patch"},
+    {Action::theme, Menu::view, "Light theme", "or dark", 'T', kCtrl},
+    {Action::larger_interface, Menu::view, "Larger interface", "", '=', kCtrl, false, key::pad_add},
+    {Action::smaller_interface, Menu::view, "Smaller interface", "", '-', kCtrl, false, key::pad_subtract},
+    {Action::normal_interface, Menu::view, "Normal interface size", "", '0', kCtrl},
+
+    {Action::help, Menu::help, "Keys and gestures", "this sheet", key::f1},
+};
+
+constexpr Gesture kGestures[] = {
+    {"Left drag", "lasso tool: draws freehand, the release closes · orbit tool: turns the view"},
+    {"Left click", "lasso tool: a corner; near the start it closes · orbit tool: chooses the patch under it"},
+    {"Double click", "closes the contour; elsewhere sets the pivot"},
+    {"Shift, Ctrl, both", "while starting a contour: add, subtract, intersect"},
+    {"Right drag, Alt + left drag",
+     "turns the view, also while a contour is being drawn; with Shift it moves the view"},
+    {"Middle drag", "moves the view"},
+    {"Wheel", "zooms to the cursor"},
+};
+
+constexpr struct {
+  int key;
+  const char* name;
+} kKeyNames[] = {
+    {key::del, "Delete"},  {key::backspace, "Backspace"}, {key::escape, "Esc"},
+    {key::enter, "Enter"}, {key::home, "Home"},           {key::f1, "F1"},
+    {key::f2, "F2"},
+};
+
+}  // namespace
+
+std::span<const ActionRow> action_table() { return kActions; }
+
+const ActionRow& row(Action action) {
+  return *std::find_if(std::begin(kActions), std::end(kActions),
+                       [action](const ActionRow& candidate) { return candidate.action == action; });
+}
+
+const char* name(Menu menu) {
+  constexpr std::array names = {"File", "Edit", "Select", "Fit", "View", "Help"};
+  return names[static_cast<std::size_t>(menu)];
+}
+
+std::string key_name(int key) {
+  for (const auto& known : kKeyNames)
+    if (known.key == key) return known.name;
+  return key == 0 ? std::string() : std::string(1, static_cast<char>(key));
+}
+
+std::string key_name(const ActionRow& action) {
+  if (action.key == 0) return {};
+  return std::string(action.ctrl ? "Ctrl+" : "") + (action.shift ? "Shift+" : "") + key_name(action.key);
+}
+
+std::span<const Gesture> gesture_table() { return kGestures; }
+
+}  // namespace patchlab::viewer

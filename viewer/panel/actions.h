@@ -1,0 +1,83 @@
+// Everything that has a key, a menu entry or a button, as one table: keys are bound from it, menus and the
+// help sheet are written from it.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace patchlab::viewer {
+
+enum class Action {
+  open_file,
+  save_journal_as,
+  export_patches,
+  quit,
+  undo,
+  redo,
+  remove,
+  rename,
+  orbit_tool,
+  lasso_tool,
+  mode_set,
+  mode_add,
+  mode_subtract,
+  mode_intersect,
+  last_vertex,
+  cancel,
+  fit_automatic,
+  fit_paraboloid,
+  fit_plane,
+  fit_sphere,
+  fit_cylinder,
+  robust,
+  keep,
+  home,
+  frame_selection,
+  sensor_view,
+  perspective,
+  colour_shading,
+  colour_photo,
+  colour_residual,
+  larger_points,
+  smaller_points,
+  show_surface,
+  show_ellipsoid,
+  show_cone,
+  show_band,
+  show_axes,
+  theme,
+  larger_interface,
+  smaller_interface,
+  normal_interface,
+  help,
+};
+
+enum class Menu { file, edit, select, fit, view, help };
+
+struct ActionRow {
+  Action action;
+  Menu menu;
+  const char* name;  // "Undo"
+  const char* help;  // one line
+  int key = 0;       // as viewer/platform/key.h; 0: none
+  bool ctrl = false;
+  bool shift = false;
+  int also = 0;  // a second key with the same modifiers
+};
+
+std::span<const ActionRow> action_table();
+const ActionRow& row(Action action);
+const char* name(Menu menu);
+// "Ctrl+Shift+Z"; empty where there is none.
+std::string key_name(const ActionRow& action);
+// The key alone: "L".
+std::string key_name(int key);
+
+// What the mouse does, for the help sheet.
+struct Gesture {
+  const char* gesture;
+  const char* help;
+};
+std::span<const Gesture> gesture_table();
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,103 @@
+#include "viewer/panel/choices.h"
+
+#include <algorithm>
+#include <array>
+
+namespace patchlab::viewer {
+
+namespace {
+
+template <class Value>
+struct Choice {
+  Action action;
+  Value value;
+};
+
+constexpr Choice<SurfaceRequest> kSurfaces[] = {{Action::fit_automatic, SurfaceRequest::automatic},
+                                                {Action::fit_paraboloid, SurfaceRequest::paraboloid},
+                                                {Action::fit_plane, SurfaceRequest::plane},
+                                                {Action::fit_sphere, SurfaceRequest::sphere},
+                                                {Action::fit_cylinder, SurfaceRequest::circular_cylinder}};
+constexpr Choice<SelectMode> kModes[] = {{Action::mode_set, SelectMode::set},
+                                         {Action::mode_add, SelectMode::add},
+                                         {Action::mode_subtract, SelectMode::subtract},
+                                         {Action::mode_intersect, SelectMode::intersect}};
+constexpr Choice<Tool> kTools[] = {{Action::orbit_tool, Tool::orbit}, {Action::lasso_tool, Tool::lasso}};
+constexpr Choice<PointColours> kColours[] = {{Action::colour_shading, PointColours::shading},
+                                             {Action::colour_photo, PointColours::photo},
+                                             {Action::colour_residual, PointColours::residual}};
+constexpr Choice<bool Layers::*> kLayers[] = {{Action::show_surface, &Layers::surface},
+                                              {Action::show_ellipsoid, &Layers::ellipsoid},
+                                              {Action::show_cone, &Layers::cone},
+                                              {Action::show_band, &Layers::band},
+                                              {Action::show_axes, &Layers::axes}};
+
+template <class Value, std::size_t n>
+std::optional<Value> find(const Choice<Value> (&choices)[n], Action action) {
+  for (const Choice<Value>& choice : choices)
+    if (choice.action == action) return choice.value;
+  return std::nullopt;
+}
+
+bool has_colours(const Document& document) {
+  return std::any_of(document.scans.begin(), document.scans.end(),
+                     [](const ScanEntry& entry) { return entry.scan && !entry.scan->colours.empty(); });
+}
+
+}  // namespace
+
+std::optional<SurfaceRequest> surface_of(Action action) { return find(kSurfaces, action); }
+std::optional<SelectMode> mode_of(Action action) { return find(kModes, action); }
+std::optional<Tool> tool_of(Action action) { return find(kTools, action); }
+std::optional<PointColours> colours_of(Action action) { return find(kColours, action); }
+bool Layers::*layer_of(Action action) { return find(kLayers, action).value_or(nullptr); }
+
+std::optional<bool> is_chosen(Action action, const ViewState& state) {
+  if (const auto surface = surface_of(action)) return state.surface == *surface;
+  if (const auto mode = mode_of(action)) return state.mode == *mode;
+  if (const auto tool = tool_of(action)) return state.tool == *tool;
+  if (const auto colours = colours_of(action)) return state.colours == *colours;
+  if (const auto layer = layer_of(action)) return state.layers.*layer;
+  switch (action) {
+    case Action::robust:
+      return state.robust;
+    case Action::perspective:
+      return state.perspective;
+    case Action::theme:
+      return state.theme == ThemeChoice::light;
+    default:
+      return std::nullopt;
+  }
+}
+
+bool is_possible(Action action, const Document& document, const ViewState& state) {
+  switch (action) {
+    case Action::undo:
+      return state.can_undo;
+    case Action::redo:
+      return state.can_redo;
+    case Action::export_patches:
+      return !document.patches.empty();
+    case Action::save_journal_as:
+      return !state.journal.empty();
+    case Action::remove:
+    case Action::rename:
+    case Action::frame_selection:
+      return !state.selected.empty();
+    case Action::keep:
+      return state.drawing || !state.draft.empty() || state.currency == Currency::fitting;
+    case Action::last_vertex:
+      return state.drawing;
+    case Action::home:
+    case Action::sensor_view:
+      return !document.scans.empty();
+    case Action::colour_photo:
+      return has_colours(document);
+    case Action::colour_residual:
+      return !document.patches.empty();
+    default:
+      return true;
+  }
+}
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,35 @@
+// Colours: conversions, the two colour maps, and the colours of patches. All maps are computed in OKLab, so
+// that equal steps of the value are equal steps to the eye, and read well to colour-blind users: lightness
+// alone carries the order.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "viewer/render/scene.h"
+
+namespace patchlab::viewer {
+
+// 0xRRGGBB.
+Rgba rgb(unsigned hex, float alpha = 1.0f);
+Rgba with_alpha(const Rgba& colour, float alpha);
+Rgba mix(const Rgba& from, const Rgba& to, float part);
+Rgba8 to_bytes(const Rgba& colour);
+
+// WCAG 2 contrast ratio of two opaque colours, 1..21.
+double contrast(const Rgba& one, const Rgba& other);
+
+// OKLab by lightness, chroma and hue (degrees), clipped to sRGB.
+Rgba oklch(double lightness, double chroma, double hue);
+
+// Dark violet through teal to light yellow, t in [0, 1]: magnitudes such as the standard deviation of a
+// height.
+Rgba sequential(double t);
+// Blue through neutral to orange, t in [-1, 1]: signed values such as correlations and residuals.
+// `neutral_lightness` suits the ground it lies on.
+Rgba diverging(double t, double neutral_lightness);
+
+// Okabe and Ito's colours for categories, by the number at the end of an id ("region-3").
+Rgba category_colour(const std::string& id);
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,20 @@
+// The fixed shell: where each panel lies. Framebuffer pixels, y down from the upper left corner.
+#pragma once
+
+namespace patchlab::viewer {
+
+struct Rect {
+  float x = 0, y = 0, width = 0, height = 0;
+  float right() const { return x + width; }
+  float bottom() const { return y + height; }
+  bool contains(float px, float py) const { return px >= x && py >= y && px < right() && py < bottom(); }
+};
+
+struct Layout {
+  Rect menu, tools, tree, inspector, status, view;
+};
+
+// The side panels give way where the window is small: the view keeps at least a third of it.
+Layout make_layout(float width, float height, float scale);
+
+}  // namespace patchlab::viewer

@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "viewer/panel/colours.h"
+#include "viewer/panel/numbers.h"
+#include "viewer/panel/panels.h"
+
+namespace patchlab::viewer {
+
+namespace {
+
+struct Pill {
+  const char* text;
+  Rgba ground, frame, colour;
+};
+
+void draw_pill(const PanelInput& in, ImDrawList& draw) {
+  const Theme& theme = in.gui.theme;
+  std::optional<Pill> pill;
+  switch (in.state.currency) {
+    case Currency::nothing:
+      return;
+    case Currency::fitting:
+      pill = {"fitting\u2026", theme.accent_ground, theme.accent, theme.accent_text};
+      break;
+    case Currency::current:
+      pill = {"up to date", theme.good_ground, theme.good, theme.good_text};
+      break;
+    case Currency::failed:
+      pill = {"no patch", theme.doubt_ground, theme.doubt, theme.doubt_text};
+      break;
+  }
+  const Gui& gui = in.gui;
+  const ImVec2 size = {text_size(gui.fonts.body, pill->text).x + gui.px(32), gui.px(26)};
+  const ImVec2 at = {in.layout.view.right() - size.x - gui.px(16), in.layout.view.y + gui.px(14)};
+  const ImVec2 end = {at.x + size.x, at.y + size.y};
+  draw.AddRectFilled(at, end, u32(pill->ground), size.y / 2);
+  draw.AddRect(at, end, u32(pill->frame), size.y / 2, 0, gui.px(1));
+  draw_text(draw, gui.fonts.body, {at.x + gui.px(16), at.y + (size.y - gui.fonts.body->FontSize) / 2},
+            pill->colour, pill->text);
+}
+
+// A ground that keeps text readable over any scan.
+void draw_plate(const Gui& gui, ImVec2 from, ImVec2 to, ImDrawList& draw) {
+  draw.AddRectFilled(from, to, u32(with_alpha(gui.theme.panel, 0.80f)), gui.px(7));
+}
+
+void draw_notes(const PanelInput& in, ImDrawList& draw) {
+  if (in.state.notes.lines.empty()) return;
+  const Gui& gui = in.gui;
+  const float line_height = gui.fonts.body->FontSize + gui.px(4), pad = gui.px(10);
+  const ImVec2 at = {in.layout.view.x + gui.px(14), in.layout.view.y + gui.px(14)};
+  const float room = in.layout.view.width - gui.px(170);
+  std::vector<std::string> lines;
+  float width = 0;
+  for (const std::string& line : in.state.notes.lines) {
+    lines.push_back(fit_text(gui.fonts.body, line, room));
+    width = std::max(width, text_size(gui.fonts.body, lines.back()).x);
+  }
+  const float height = line_height * static_cast<float>(lines.size());
+  draw_plate(gui, at, {at.x + width + 2 * pad, at.y + height + gui.px(12)}, draw);
+  float y = at.y + gui.px(7);
+  for (const std::string& line : lines) {
+    draw_text(draw, gui.fonts.body, {at.x + pad, y},
+              y == at.y + gui.px(7) ? gui.theme.text : gui.theme.text_dim, line);
+    y += line_height;
+  }
+}
+
+// The longest of 1, 2, 5 times a power of ten that is at most `length`.
+double round_length(double length) {
+  const double decade = std::pow(10.0, std::floor(std::log10(length)));
+  return (length >= 5 * decade ? 5 : length >= 2 * decade ? 2 : 1) * decade;
+}
+
+void draw_scale_bar(const PanelInput& in, ImDrawList& draw) {
+  const Gui& gui = in.gui;
+  const double per_pixel = in.state.notes.metres_per_pixel;
+  if (!(per_pixel > 0)) return;
+  const double length = round_length(per_pixel * gui.px(150));
+  const float width = static_cast<float>(length / per_pixel);
+  const ImVec2 at = {in.layout.view.x + gui.px(24), in.layout.view.bottom() - gui.px(24)};
+  const ImU32 colour = u32(gui.theme.text);
+  draw_plate(gui, {at.x - gui.px(8), at.y - gui.px(28)}, {at.x + width + gui.px(8), at.y + gui.px(8)}, draw);
+  draw.AddLine(at, {at.x + width, at.y}, colour, gui.px(2));
+  for (const float x : {at.x, at.x + width})
+    draw.AddLine({x, at.y - gui.px(4)}, {x, at.y + gui.px(1)}, colour, gui.px(1.5f));
+  const std::string text = quantity(length, Dimension::length, 1);
+  draw_text(
+      draw, gui.fonts.small,
+      {at.x + (width - text_size(gui.fonts.small, text).x) / 2, at.y - gui.px(8) - gui.fonts.small->FontSize},
+      gui.theme.text_dim, text);
+}
+
+// A vertical bar at the right of the view, with three labels and a title below.
+struct ColourBar {
+  std::array<std::string, 3> labels;  // low, middle, high
+  const char* title;
+  Rgba (*colour)(double t, const Theme& theme);
+};
+
+void draw_colour_bar(const PanelInput& in, const ColourBar& bar, ImDrawList& draw) {
+  const Gui& gui = in.gui;
+  const float width = gui.px(12), height = std::min(gui.px(170), in.layout.view.height * 0.4f);
+  const ImVec2 at = {in.layout.view.right() - gui.px(30),
+                     in.layout.view.y + (in.layout.view.height - height) / 2};
+  float label_space = text_size(gui.fonts.small, bar.title).x - width;
+  for (const std::string& label : bar.labels) {
+    label_space = std::max(label_space, text_size(gui.fonts.small, label).x + gui.px(6));
+  }
+  draw_plate(gui, {at.x - label_space - gui.px(10), at.y - gui.px(14)},
+             {at.x + width + gui.px(10), at.y + height + gui.px(32)}, draw);
+  constexpr int steps = 64;
+  for (int i = 0; i < steps; ++i) {
+    const float from = at.y + height * static_cast<float>(steps - 1 - i) / steps;
+    draw.AddRectFilled({at.x, from}, {at.x + width, from + height / steps + 0.5f},
+                       u32(bar.colour((i + 0.5) / steps, gui.theme)));
+  }
+  for (std::size_t i = 0; i < bar.labels.size(); ++i) {
+    const float y = at.y + height * (1.0f - static_cast<float>(i) / 2) - gui.fonts.small->FontSize / 2;
+    draw_text_right(draw, gui.fonts.small, {at.x - gui.px(6), y}, gui.theme.text, bar.labels[i]);
+  }
+  draw_text_right(draw, gui.fonts.small, {at.x + width, at.y + height + gui.px(10)}, gui.theme.text_dim,
+                  bar.title);
+}
+
+void draw_colour_bars(const PanelInput& in, ImDrawList& draw) {
+  const SceneNotes& notes = in.state.notes;
+  if (notes.residual_colours) {
+    draw_colour_bar(
+        in,
+        {{"\u22123", "0", "3"},
+         "residual, σ",
+         [](double t, const Theme& theme) { return diverging(2 * t - 1, theme.neutral_lightness); }},
+        draw);
+  } else if (notes.height_sigma) {
+    const double low = notes.height_sigma->x() * 1e3, high = notes.height_sigma->y() * 1e3;
+    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(std::max(high, 1e-6)))), 0, 4);
+    draw_colour_bar(in,
+                    {{fixed(low, decimals), fixed((low + high) / 2, decimals), fixed(high, decimals)},
+                     "height σ, mm",
+                     [](double t, const Theme&) { return sequential(t); }},
+                    draw);
+  }
+}
+
+void draw_contour(const PanelInput& in, ImDrawList& draw) {
+  const Gui& gui = in.gui;
+  const std::vector<Eigen::Vector2d>& contour = in.state.contour;
+  if (contour.empty()) return;
+  std::vector<ImVec2> points;
+  points.reserve(contour.size());
+  for (const Eigen::Vector2d& p : contour) {
+    points.push_back(
+        {in.layout.view.x + static_cast<float>(p.x()), in.layout.view.y + static_cast<float>(p.y())});
+  }
+  const Theme& theme = gui.theme;
+  const bool takes_away = in.state.contour_mode == SelectMode::subtract;
+  const Rgba colour = takes_away ? theme.bad : theme.accent;
+  draw.AddPolyline(points.data(), static_cast<int>(points.size()), u32(colour), 0, gui.px(1.75f));
+  draw.AddLine(points.back(), points.front(), u32(with_alpha(colour, 0.45f)), gui.px(1.25f));
+  const float r = gui.px(in.state.contour_closes ? 6.5f : 4);
+  draw.AddCircleFilled(points.front(), r, u32(in.state.contour_closes ? theme.good : colour), 20);
+}
+
+// What the contour will do, beside the pointer.
+void draw_badge(const PanelInput& in, ImDrawList& draw) {
+  const char* badge = nullptr;
+  switch (in.state.contour_mode) {
+    case SelectMode::set:
+      return;
+    case SelectMode::add:
+      badge = "+";
+      break;
+    case SelectMode::subtract:
+      badge = "\u2212";
+      break;
+    case SelectMode::intersect:
+      badge = "\u2229";
+      break;
+  }
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (in.state.tool != Tool::lasso || !in.layout.view.contains(mouse.x, mouse.y)) return;
+  draw_text(draw, in.gui.fonts.title, {mouse.x + in.gui.px(12), mouse.y + in.gui.px(6)}, in.gui.theme.text,
+            badge);
+}
+
+}  // namespace
+
+void draw_overlay(const PanelInput& in) {
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const Rect& view = in.layout.view;
+  draw.PushClipRect(corner(view), far_corner(view));
+  for (const SceneNotes::Label& label : in.state.notes.labels) {
+    draw_text(draw, in.gui.fonts.strong,
+              {view.x + static_cast<float>(label.pixel.x()), view.y + static_cast<float>(label.pixel.y())},
+              label.colour, label.text);
+  }
+  draw_contour(in, draw);
+  draw_badge(in, draw);
+  draw_notes(in, draw);
+  draw_scale_bar(in, draw);
+  draw_colour_bars(in, draw);
+  draw_pill(in, draw);
+  draw.PopClipRect();
+}
+
+}  // namespace patchlab::viewer

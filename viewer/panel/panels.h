@@ -1,0 +1,54 @@
+// The panels, one a file. Each reads the document and the view state, draws itself, and adds to the requests.
+#pragma once
+
+#include "engine/project/document.h"
+#include "viewer/panel/choices.h"
+#include "viewer/panel/file_dialog.h"
+#include "viewer/panel/gui.h"
+#include "viewer/panel/layout.h"
+#include "viewer/panel/view_state.h"
+
+namespace patchlab::viewer {
+
+// What panels remember between frames for themselves.
+struct PanelMemory {
+  std::string renaming;  // id whose name is being typed
+  std::string new_name;
+  FileDialog files;
+  bool help = false;
+  std::string help_filter;
+};
+
+struct PanelInput {
+  const Gui& gui;
+  const Document& document;
+  const ViewState& state;
+  const Layout& layout;
+};
+
+// All of them, in order.
+void draw_panels(const PanelInput& in, PanelMemory& memory, Requests& out);
+
+void draw_menu_bar(const PanelInput& in, Requests& out);
+void draw_tool_bar(const PanelInput& in, Requests& out);
+void draw_tree(const PanelInput& in, PanelMemory& memory, Requests& out);
+void draw_inspector(const PanelInput& in, Requests& out);
+void draw_status_bar(const PanelInput& in, Requests& out);
+void draw_overlay(const PanelInput& in);  // over the scene: notes, pill, scale bar, colour bar, contour
+void draw_help_sheet(const PanelInput& in, PanelMemory& memory);
+void draw_toasts(const PanelInput& in);
+
+// Parts of the inspector.
+void draw_verdict(const Gui& gui, const FitReport& report, bool assumed_noise);
+void draw_parameters(const Gui& gui, const Patch& patch);
+void draw_correlation(const Gui& gui, const Patch& patch);
+void draw_residuals(const Gui& gui, const FitReport& report);
+void draw_candidates(const Gui& gui, const FitReport& report, SurfaceType shown, Requests& out);
+
+// Words.
+std::string surface_words(SurfaceType surface);        // "elliptic paraboloid"
+std::string short_surface_words(SurfaceType surface);  // "ell. paraboloid"
+std::string boundary_words(BoundaryType boundary);
+std::string noise_words(const NoiseModel& model);  // "kinect1 (assumed)"
+
+}  // namespace patchlab::viewer

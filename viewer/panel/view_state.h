@@ -1,0 +1,104 @@
+// What the panels show beside the document, and what they ask for. Panels read both, and change neither:
+// whatever the user does in them comes back as Requests.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/fit/fit_patch.h"
+#include "engine/project/command.h"
+#include "engine/region/lasso.h"
+#include "viewer/panel/actions.h"
+#include "viewer/panel/theme.h"
+
+namespace patchlab::viewer {
+
+enum class Tool { orbit, lasso };
+enum class PointColours { shading, photo, residual };
+
+// Whether the patch on the screen is the fit of what is selected now.
+enum class Currency { nothing, fitting, current, failed };
+
+struct Layers {
+  bool surface = true, ellipsoid = true, cone = true, band = true, axes = true;
+  bool operator==(const Layers&) const = default;
+};
+
+// What the picture must say of itself: text of the overlays, made with the scene.
+struct SceneNotes {
+  struct Label {
+    Eigen::Vector2d pixel;  // in the view
+    std::string text;
+    Rgba colour;
+  };
+  std::vector<std::string> lines;               // "95 % ellipsoid of the centre, drawn 10 times larger"
+  std::vector<Label> labels;                    // of axes
+  std::optional<Eigen::Vector2d> height_sigma;  // least and largest on the surface, m: the colour bar
+  bool residual_colours = false;
+  double metres_per_pixel = 0.0;  // at the pivot
+};
+
+struct Toast {
+  std::string text;
+  bool is_error = false;
+  double until = 0.0;  // s, of ImGui's clock
+};
+
+struct Busy {
+  std::string what;
+  double fraction = 0.0;
+};
+
+struct ViewState {
+  ThemeChoice theme = ThemeChoice::dark;
+  Tool tool = Tool::orbit;
+  SelectMode mode = SelectMode::set;
+  SurfaceRequest surface = SurfaceRequest::automatic;
+  bool robust = true;
+  bool perspective = true;
+  PointColours colours = PointColours::shading;
+  float point_size = 2.0f;  // px, times the scale
+  Layers layers;
+
+  std::string selected;  // id of the scan, region or patch that the inspector shows
+  std::string draft;     // id of a patch that is fitted but not kept
+  Currency currency = Currency::nothing;
+  std::string fit_message;  // why there is no fit
+  double fit_milliseconds = 0.0;
+
+  bool drawing = false;  // a contour is open
+  SelectMode contour_mode = SelectMode::set;
+  std::vector<Eigen::Vector2d> contour;  // px of the view
+  bool contour_closes = false;           // a click now would close it
+
+  std::vector<std::string> history;
+  std::size_t position = 0;  // how much of the history stands
+  bool can_undo = false, can_redo = false;
+  std::string saved;    // "saved 14:02:11"
+  std::string journal;  // its path
+  std::optional<Busy> busy;
+  std::vector<Toast> toasts;
+  SceneNotes notes;
+};
+
+struct ExportRequest {
+  std::string format;
+  std::filesystem::path file;
+};
+
+struct Requests {
+  std::vector<Action> actions;
+  std::vector<Command> commands;  // rename, delete, show
+  std::optional<std::string> select;
+  std::optional<SurfaceRequest> surface;
+  std::optional<std::size_t> history_position;
+  std::optional<std::filesystem::path> open;
+  std::optional<std::filesystem::path> save_journal;
+  std::optional<ExportRequest> export_to;
+  bool cancel_work = false;
+};
+
+}  // namespace patchlab::viewer
