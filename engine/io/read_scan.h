@@ -1,5 +1,5 @@
-// Scans in: our own strict readers. A file is read rightly or refused with one sentence that names the file, the line or
-// byte, what was expected and what was found.
+// Scans in: our own strict readers. A file is read rightly or refused with one sentence that names the file,
+// the line or byte, what was expected and what was found.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,8 @@
 namespace patchlab {
 
 struct ReadOptions {
-  bool points_in_sensor_frame = false;   // --points-in sensor: PCD points are in the sensor's frame, apply VIEWPOINT
+  bool points_in_sensor_frame =
+      false;  // --points-in sensor: PCD points are in the sensor's frame, apply VIEWPOINT
   std::uint64_t memory_limit = std::uint64_t{2} << 30;  // bytes the points may take
   Progress progress = {};
 };
@@ -22,14 +23,17 @@ struct ReadOptions {
 // By content, not by extension alone. "-" is standard input.
 Result<Scan> read_scan(const std::filesystem::path& file, const ReadOptions& options = {});
 // The same from bytes already read; `name` is for messages and becomes Scan::file.
-Result<Scan> read_scan_bytes(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+Result<Scan> read_scan_bytes(std::string_view bytes, const std::string& name,
+                             const ReadOptions& options = {});
 
 // The single formats, from bytes already read; `name` is for messages.
 Result<Scan> read_pcd(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 // Header row `x,y,z[,cxx,cxy,cxz,cyy,cyz,czz]` (more columns are kept out with a notice); metres, metres^2.
-Result<Scan> read_point_table(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+Result<Scan> read_point_table(std::string_view bytes, const std::string& name,
+                              const ReadOptions& options = {});
 
-// PCD binary of an organised or plain scan (x y z, label, rgb where present), VIEWPOINT written: read_pcd gives it back.
+// PCD binary of an organised or plain scan (x y z, label, rgb where present), VIEWPOINT written: read_pcd
+// gives it back.
 std::string write_pcd(const Scan& scan);
 
 }  // namespace patchlab

@@ -1,7 +1,8 @@
 // A scan: what a range sensor left, as patchlab uses it. Units: metre.
 //
-// Points are kept as float about a double origin, so that map coordinates lose nothing: the coordinates of point i in
-// the frame of the file are origin + position[i]. Every array is either empty or has one entry a point.
+// Points are kept as float about a double origin, so that map coordinates lose nothing: the coordinates of
+// point i in the frame of the file are origin + position[i]. Every array is either empty or has one entry a
+// point.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,19 +40,19 @@ struct Scan {
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // m
   std::vector<Eigen::Vector3f> positions;            // m, about origin; NaN where the sensor gave nothing
-  std::vector<std::uint8_t> finite;                  // 1 where all three coordinates are finite; always filled
+  std::vector<std::uint8_t> finite;  // 1 where all three coordinates are finite; always filled
   std::size_t finite_count = 0;
   std::vector<std::array<std::uint8_t, 3>> colours;  // red, green, blue
   std::vector<Covariance6> covariances;              // m^2, in the frame of the points
   std::vector<std::uint32_t> labels;
-  std::vector<Eigen::Vector3f> viewpoints;           // one sensor position a point (merged clouds), about origin
+  std::vector<Eigen::Vector3f> viewpoints;  // one sensor position a point (merged clouds), about origin
 
-  std::uint32_t width = 0;   // pixel grid, row by row; height 1: not organised
+  std::uint32_t width = 0;  // pixel grid, row by row; height 1: not organised
   std::uint32_t height = 1;
   Viewpoint viewpoint;
   // Of a depth camera's pixel grid where known: fx, fy, cx, cy in pixels.
   std::optional<std::array<double, 4>> intrinsics;
-  std::vector<std::string> notices;                  // whole sentences for the user: what was assumed or dropped
+  std::vector<std::string> notices;  // whole sentences for the user: what was assumed or dropped
 
   std::size_t size() const { return positions.size(); }
   bool organized() const { return height > 1 && width > 1; }
