@@ -41,12 +41,13 @@ install_packages() {
   quietly apt-install.log "${apt[@]}" install --no-install-recommends "${missing[@]}"
 }
 
-# build PRESET TARGET...: configures and builds into build/PRESET.
+# build PRESET TARGET...: configures (with configure_options) and builds into build/PRESET.
+configure_options=()
 build() {
   local preset=$1
   shift
   cd "$house"
   say "Building $preset in $house/build/$preset"
-  quietly "$preset-configure.log" cmake --preset "$preset" &&
+  quietly "$preset-configure.log" cmake --preset "$preset" "${configure_options[@]}" &&
     quietly "$preset-build.log" cmake --build --preset "$preset" --target "$@"
 }

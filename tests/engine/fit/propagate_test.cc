@@ -110,7 +110,7 @@ TEST_P(Refit, CovarianceFollowsFromMovingEveryPoint) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(PlanesSphereCylinder, Refit, testing::Values(4, 5, 6, 8, 9));
+INSTANTIATE_TEST_SUITE_P(PlanesAndCylinder, Refit, testing::Values(4, 5, 6, 9));
 
 TEST(SoftEdge, QuadOfEdgesHasTheDerivativesOfDifferences) {
   SeededRandom random;
