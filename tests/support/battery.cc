@@ -5,14 +5,30 @@
 #include <numeric>
 
 #include "engine/base/chi_square.h"
+#include "tests/support/parallel.h"
 
 namespace patchlab::test {
 namespace {
 
+struct Trial {
+  Scenario scenario;
+  Result<FitResult> fit = Error{ErrorCode::cancelled, "Not tried."};
+};
+
+Trial run_trial(const PatchTypeRow& type, const BatteryOptions& options, const FitOptions& fit_options,
+                int number) {
+  Random random(trial_seed(options.seed, type, number));
+  Trial trial;
+  trial.scenario = random_scenario(random, type, number % 2 == 0, options.scenario);
+  trial.fit = fit_patch(observe(random, trial.scenario, options.scenario), fit_options);
+  return trial;
+}
+
 void record_sizes(const Patch& fitted, const Patch& truth, BatteryRow& row) {
-  if (fitted.type->boundary == BoundaryType::convex_quad) return;  // its labels are matched by NEES only
-  const BoundaryVector d = boundary(fitted).d, d_true = boundary(truth).d;
-  for (int i = 0; i < d.size(); ++i) row.size_ratio.push_back(d[i] / d_true[i]);
+  const Patch near = nearest_description(fitted, truth);
+  const BoundaryVector d = boundary(fitted).d, d_true = boundary(near).d;
+  const bool quad = fitted.type->boundary == BoundaryType::convex_quad;  // whose last d is an angle
+  for (int i = 0; i < d.size() - (quad ? 1 : 0); ++i) row.size_ratio.push_back(d[i] / d_true[i]);
 }
 
 void record(const FitResult& fit, const Scenario& scenario, BatteryRow& row) {
@@ -20,20 +36,32 @@ void record(const FitResult& fit, const Scenario& scenario, BatteryRow& row) {
   row.converged += report.converged ? 1 : 0;
   row.iterations.push_back(report.iterations);
   row.chi2_per_dof.push_back(report.chi2 / report.dof);
-  if (fit.patch.type->surface != scenario.truth.type->surface) return;
-  ++row.right_type;
+  ++row.chosen[static_cast<std::size_t>(fit.patch.type->surface)];
   if (fit.patch.type != scenario.truth.type) return;
+  ++row.right_type;
   const Nees surface = surface_nees(fit.patch, scenario.truth), full = full_nees(fit.patch, scenario.truth);
+  row.surface_dof = surface.dof;
+  row.full_dof = full.dof;
   row.surface_nees.push_back(surface.value / surface.dof);
   row.full_nees.push_back(full.value / full.dof);
-  row.surface_covered += surface.value < chi_square_quantile(0.95, surface.dof) ? 1 : 0;
-  row.full_covered += full.value < chi_square_quantile(0.95, full.dof) ? 1 : 0;
   row.surface_errors.push_back(surface.errors);
   row.surface_sigmas.push_back(surface.sigmas);
   record_sizes(fit.patch, scenario.truth, row);
 }
 
+// The finaliser of SplitMix64: neighbouring numbers give unrelated seeds.
+std::uint64_t scattered(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
 }  // namespace
+
+std::uint64_t trial_seed(std::uint64_t seed, const PatchTypeRow& type, int trial) {
+  const auto row = static_cast<std::uint64_t>(&type - patch_types().data());
+  return scattered(scattered(scattered(seed) + row + 1) + static_cast<std::uint64_t>(trial) + 1);
+}
 
 FitOptions forced_fit(const PatchTypeRow& type) {
   FitOptions options;
@@ -49,19 +77,28 @@ BatteryRow run_battery(const PatchTypeRow& type, const BatteryOptions& options) 
   fit_options.method = options.method;
   fit_options.robust = options.robust;
   if (!options.forced) fit_options.surface = SurfaceRequest::paraboloid;
-  Random random(options.seed);
-  for (int trial = 0; trial < options.trials; ++trial) {
-    const Scenario scenario = random_scenario(random, type, trial % 2 == 0, options.scenario);
-    const Observations observations = observe(random, scenario, options.scenario);
+  std::vector<Trial> trials(static_cast<std::size_t>(options.trials));
+  for_each_index(options.trials, options.threads, [&](int i) {
+    trials[static_cast<std::size_t>(i)] = run_trial(type, options, fit_options, i);
+  });
+  for (const Trial& trial : trials) {
     ++row.trials;
-    const Result<FitResult> fit = fit_patch(observations, fit_options);
-    if (fit) {
-      record(*fit, scenario, row);
+    if (trial.fit) {
+      record(*trial.fit, trial.scenario, row);
     } else {
       ++row.refused;
     }
   }
+  row.surface_covered = inside(row.surface_nees, row.surface_dof, 0.95);
+  row.full_covered = inside(row.full_nees, row.full_dof, 0.95);
   return row;
+}
+
+int inside(const std::vector<double>& per_dof, int dof, double probability) {
+  if (per_dof.empty()) return 0;
+  const double limit = chi_square_quantile(probability, dof) / dof;
+  return static_cast<int>(
+      std::count_if(per_dof.begin(), per_dof.end(), [&](double value) { return value < limit; }));
 }
 
 double mean(const std::vector<double>& values) {

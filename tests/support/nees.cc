@@ -9,6 +9,8 @@
 namespace patchlab::test {
 namespace {
 
+constexpr double least_pivot = 1e-13;  // of a correlation matrix that is not singular in double precision
+
 Nees nees(const Eigen::VectorXd& error, const Eigen::MatrixXd& cov) {
   Nees result;
   result.dof = static_cast<int>(error.size());
@@ -17,7 +19,9 @@ Nees nees(const Eigen::VectorXd& error, const Eigen::MatrixXd& cov) {
   const Eigen::VectorXd scale = result.sigmas.cwiseMax(1e-300).cwiseInverse();
   const Eigen::MatrixXd correlation = scale.asDiagonal() * cov * scale.asDiagonal();
   const Eigen::VectorXd scaled = scale.cwiseProduct(error);
-  result.value = scaled.dot(correlation.ldlt().solve(scaled));
+  const auto factors = correlation.ldlt();
+  const bool regular = factors.vectorD().minCoeff() > least_pivot;  // false for NaN too
+  result.value = regular ? scaled.dot(factors.solve(scaled)) : std::numeric_limits<double>::infinity();
   return result;
 }
 
@@ -126,19 +130,6 @@ Nees plane_nees(const Patch& fitted, const Patch& truth) {
   return picked(fitted, error, {type.rotation_at(), type.rotation_at() + 1, type.position_at() + 2});
 }
 
-Patch nearest(const Patch& fitted, const Patch& truth) {
-  Patch best = truth;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Patch& description : descriptions(truth)) {
-    const double turn = log_map(axes(fitted).transpose() * axes(description)).norm();
-    if (turn < least) {
-      least = turn;
-      best = description;
-    }
-  }
-  return best;
-}
-
 // The vertex line of a cylindric paraboloid: the truth's vertex slid to where the fit's is.
 Nees cylindric_nees(const Patch& fitted, const Patch& truth) {
   PatchVector error = local_error(fitted, truth);
@@ -151,12 +142,25 @@ Nees cylindric_nees(const Patch& fitted, const Patch& truth) {
 
 }  // namespace
 
+Patch nearest_description(const Patch& fitted, const Patch& truth) {
+  Patch best = truth;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Patch& description : descriptions(truth)) {
+    const double turn = log_map(axes(fitted).transpose() * axes(description)).norm();
+    if (turn < least) {
+      least = turn;
+      best = description;
+    }
+  }
+  return best;
+}
+
 Nees full_nees(const Patch& fitted, const Patch& truth) {
-  return nees(local_error(fitted, nearest(fitted, truth)), cov_local(fitted));
+  return nees(local_error(fitted, nearest_description(fitted, truth)), cov_local(fitted));
 }
 
 Nees surface_nees(const Patch& fitted, const Patch& truth) {
-  const Patch near = nearest(fitted, truth);
+  const Patch near = nearest_description(fitted, truth);
   switch (fitted.type->surface) {
     case SurfaceType::plane:
       return plane_nees(fitted, near);
@@ -171,6 +175,25 @@ Nees surface_nees(const Patch& fitted, const Patch& truth) {
     case SurfaceType::elliptic_paraboloid:
     case SurfaceType::hyperbolic_paraboloid:
       return picked(fitted, local_error(fitted, near), {2, 3, 4, 5, 6, 7, 8, 9});
+  }
+  return {};
+}
+
+std::vector<std::string> surface_error_names(SurfaceType surface) {
+  switch (surface) {
+    case SurfaceType::plane:
+      return {"w_x", "w_y", "t_z"};
+    case SurfaceType::sphere:
+      return {"kappa", "n_x", "n_y", "t_z"};
+    case SurfaceType::circular_cylinder:
+      return {"kappa", "w_z", "w_y", "n_y", "t_z"};
+    case SurfaceType::cylindric_paraboloid:
+      return {"kappa", "w_x", "w_y", "w_z", "t_y", "t_z"};
+    case SurfaceType::circular_paraboloid:
+      return {"kappa", "tilt_x", "tilt_y", "t_x", "t_y", "t_z"};
+    case SurfaceType::elliptic_paraboloid:
+    case SurfaceType::hyperbolic_paraboloid:
+      return {"kappa_x", "kappa_y", "w_x", "w_y", "w_z", "t_x", "t_y", "t_z"};
   }
   return {};
 }

@@ -88,6 +88,13 @@ double least_sag(const Patch& patch) {
   return sag;
 }
 
+// How far apart the heights are that two curvatures give at the lesser reach.
+double sag_apart(const Patch& patch) {
+  const double reach = extent(boundary(patch)).minCoeff();
+  const Vector3d kappa = k3(patch);
+  return 0.5 * std::abs(kappa.x() - kappa.y()) * reach * reach;
+}
+
 bool has_vertex_prior(SurfaceType surface) {
   return surface == SurfaceType::elliptic_paraboloid || surface == SurfaceType::hyperbolic_paraboloid ||
          surface == SurfaceType::circular_paraboloid || surface == SurfaceType::cylindric_paraboloid;
@@ -155,6 +162,8 @@ Scenario random_scenario(Random& random, const PatchTypeRow& type, bool concave,
     scenario.range_sigma = range_sigma(depth);
     if (!validate(scenario.truth)) continue;
     if (type.curvature_size > 0 && least_sag(scenario.truth) < options.least_sag * scenario.range_sigma)
+      continue;
+    if (type.curvature_size == 2 && sag_apart(scenario.truth) < options.least_apart * scenario.range_sigma)
       continue;
     if (options.fully_visible && !all_visible(scenario.truth)) continue;
     if (has_vertex_prior(type.surface)) {

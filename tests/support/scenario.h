@@ -21,6 +21,8 @@ struct ScenarioOptions {
   NoiseMode noise = NoiseMode::linear;
   bool fully_visible = true;  // no part of the patch turns away from the camera
   double least_sag = 1.5;     // |kappa| d^2 / 2 of curved types over the range noise of one point
+  double least_apart = 0.0;   // |kappa_x - kappa_y| d^2 / 2 over the same, d the lesser: what tells elliptic
+                              // from circular
   double outliers = 0.0;      // share of points on a plane 2 to 10 cm behind one side
 };
 
