@@ -59,6 +59,9 @@ def faults(program):
 
 
 if __name__ == "__main__":
+    if not pathlib.Path(sys.argv[1]).exists():
+        print(f"{sys.argv[1]} is not built")
+        sys.exit(77)
     found = list(faults(sys.argv[1]))
     print(*found, sep="\n")
     sys.exit(1 if found else 0)
