@@ -33,7 +33,7 @@ std::array<Vector2d, 4> vertices(const Boundary& boundary);
 std::vector<Vector2d> outline(const Boundary& boundary, int count);
 
 // The outline point at fraction s in [0, 1) of the way round, its derivative for d (2 x n), and the outward
-// unit normal of the curve (at a corner the mean of the two edges'): the outline band.
+// unit normal of the curve (at a corner the mean of the two edges').
 struct OutlinePoint {
   Vector2d u;
   Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 5> J_u_d;

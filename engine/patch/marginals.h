@@ -1,6 +1,5 @@
 // What the covariance of a patch says about things one can see: the centre, the normal, the outline, the
-// height. Each is read from covariance_local, to first order. Precondition: patch.covariance_local is
-// present.
+// height. Each is read from covariance_local, to first order. Precondition: it is present.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,8 +33,7 @@ struct NormalCone {
 };
 NormalCone normal_cone(const Patch& patch, double probability);
 
-// Standard deviation of the height of the surface at u, along the local surface normal, m: from kappa and
-// pose.
+// Standard deviation of the surface at u along its normal there, m: from kappa and pose.
 double height_sigma(const Patch& patch, const Vector2d& u);
 
 // A point of the outline with the standard deviation of its place in the tangent plane, across the curve, m.
@@ -46,8 +44,7 @@ struct BandPoint {
 };
 std::vector<BandPoint> outline_band(const Patch& patch, int count);
 
-// Standard deviation per parameter and correlation matrix (zero where a variance is zero), in parameter
-// order.
+// Per parameter, in order: standard deviation, and correlation (zero where a variance is zero).
 PatchVector sigmas(const PatchMatrix& covariance);
 PatchMatrix correlation(const PatchMatrix& covariance);
 

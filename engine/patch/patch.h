@@ -43,16 +43,14 @@ Patch make_patch(const PatchTypeRow& type, const Boundary& boundary, const Eigen
                  const Matrix3d& R, const Vector3d& c,
                  const std::optional<PatchMatrix>& covariance_local = std::nullopt);
 
-// d p / d (local chart), square; and its inverse. Near theta_xy = pi of a 5-DoF patch its entries grow
-// (errata D1).
+// d p / d (local chart), square; and its inverse. Near theta_xy = pi of a 5-DoF patch it grows (errata D1).
 PatchMatrix J_parameters_local(const Patch& patch);
 PatchMatrix J_local_parameters(const Patch& patch);
 // J cov J', exactly symmetric.
 PatchMatrix carried(const PatchMatrix& J, const PatchMatrix& covariance);
 // covariance_local, or where only `covariance` is present what follows from it.
 std::optional<PatchMatrix> local_covariance(const Patch& patch);
-// True where `covariance` says little about the orientation (engine/pose/axis_pose.h); false for 6-DoF
-// patches.
+// True where `covariance` says little about the orientation (engine/pose/axis_pose.h), of 5-DoF patches only.
 bool near_singular(const Patch& patch);
 
 // Nothing, or the reason why the parameters are no patch: sizes, finite, d > 0, |kappa| d <= 1 (sphere,
@@ -62,20 +60,22 @@ Result<void> validate(const Patch& patch);
 
 // True where the point lies on the patch's side of the boundary, and on the modelled sheet (by its z).
 bool contains(const Patch& patch, const Vector3d& q_world);
-// The ray's nearest hit with the bounded patch: its parameter s > 0, or nothing. q = origin + s direction,
-// world frame.
+// The ray's nearest hit with the bounded patch, q = origin + s direction in the world: s > 0, or nothing.
 std::optional<double> ray_hit(const Patch& patch, const Vector3d& origin_world,
                               const Vector3d& direction_world);
-// Area of the curved surface inside the boundary, m^2 (by quadrature, relative error below 1e-6).
+// Area of the curved surface inside the boundary, m^2 (relative error below 1e-6).
 double surface_area(const Patch& patch);
 
 // The other descriptions of the same patch (errata section 5), parameters and both covariances carried along.
-Patch flip_normal(const Patch& patch);  // z_l to the other side; kappa changes sign, u_y changes sign
-Patch swap_axes(
-    const Patch& patch);  // x' = y, y' = -x; precondition: not 5-DoF, not cylindric (kappa along y)
-Patch half_turn(const Patch& patch);  // R -> R Rz(pi), the residual symmetry of every 6-DoF patch
-// The one description that the conventions ask for: |kappa_x| <= |kappa_y|, d_x >= d_y of planes, gamma <=
-// pi/4, the half turn with the smaller |r|, r canonical; and z_l towards the viewpoint where one is given.
+// z_l to the other side; kappa and u_y change sign.
+Patch flip_normal(const Patch& patch);
+// x' = y, y' = -x. Precondition: neither 5-DoF nor cylindric (kappa along y).
+Patch swap_axes(const Patch& patch);
+// R -> R Rz(pi), the residual symmetry of every 6-DoF patch.
+Patch half_turn(const Patch& patch);
+// The one description that the conventions ask for: |kappa_x| <= |kappa_y|, d_x >= d_y of planes,
+// gamma <= pi/4, the half turn with the smaller |r|, r canonical; and z_l towards the viewpoint where one is
+// given.
 Patch conventional(const Patch& patch, const std::optional<Vector3d>& viewpoint = std::nullopt);
 
 // The patch seen from another frame: a_from_b applied, the covariances carried along and that of the pose

@@ -44,17 +44,18 @@ Vector3d surface_point(const Vector2d& u, const Vector3d& k3);
 // 1e-12), always for paraboloids and planes.
 bool on_modelled_sheet(const Vector3d& q_patch, const Vector3d& k3);
 
-// The nearest hit with s > 0 of the ray origin + s direction with the modelled sheet, not clipped by a
-// boundary. All hits in order are given, at most two.
+// The hits of the ray origin + s direction, s > 0, with the modelled sheet, nearest first; not clipped by a
+// boundary.
 struct RayHits {
   int count = 0;
   double s[2] = {0.0, 0.0};
 };
 RayHits ray_hits(const Vector3d& origin_patch, const Vector3d& direction_patch, const Vector3d& k3);
 
-// The foot point of q on the surface, the nearest point in the Mahalanobis metric of `cov` (fitting.md
-// section 1.1); with cov = I the Euclidean one. Converged to below 1e-9 m. `cov` may be semi-definite: where
-// it lets q reach no point of the surface, x is q and the distance infinite (signed). Allocates nothing.
+// The foot point of q on the whole quadric (both halves of a sphere), the nearest point in the Mahalanobis
+// metric of `cov` (fitting.md section 1.1); with cov = I the Euclidean one. Converged to below 1e-9 m. `cov`
+// may be semi-definite: where it lets q reach no point of the surface, x is q and the distance infinite
+// (signed). Allocates nothing.
 struct FootPoint {
   Vector3d x;       // on the surface
   double distance;  // signed: F = g(x)'(q - x) / sqrt(g' cov g)
