@@ -5,45 +5,19 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
 
-#include "engine/base/file.h"
 #include "engine/io/patch_set.h"
 #include "tests/engine/io/sample_set.h"
+#include "tests/support/json_schema.h"
 
 namespace patchlab {
 namespace {
 
 using nlohmann::json;
+using test::complaints;
+using test::read_json;
 
 const std::filesystem::path top = PATCHLAB_SOURCE_DIR;
-
-json read_json(const std::filesystem::path& file) {
-  const Result<Bytes> bytes = read_file(file);
-  if (bytes) return json::parse(as_text(*bytes));
-  ADD_FAILURE() << bytes.error().message;
-  return {};
-}
-
-// What a schema says against a document; empty where it accepts it.
-std::string complaints(const std::string& schema_name, const json& document) {
-  using Adapter = valijson::adapters::NlohmannJsonAdapter;
-  const json schema_json = read_json(top / "assets/schema" / (schema_name + ".schema.json"));
-  valijson::Schema schema;
-  valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(schema_json), schema);
-  valijson::ValidationResults results;
-  valijson::Validator(valijson::Validator::kStrongTypes).validate(schema, Adapter(document), &results);
-  std::string text;
-  for (valijson::ValidationResults::Error error; results.popError(error);) {
-    for (const std::string& step : error.context) text += step;
-    text += ": " + error.description + "\n";
-  }
-  return text;
-}
 
 struct Contract {
   const char* file;
@@ -68,8 +42,7 @@ TEST_P(SchemaOfContract, AcceptsIt) {
 
 TEST_P(SchemaOfContract, MissesEachOfItsRequiredMembers) {
   if (!std::filesystem::exists(file())) GTEST_SKIP() << "the contracts are not beside this checkout";
-  const json required =
-      read_json(top / "assets/schema" / (std::string(GetParam().schema) + ".schema.json"))["required"];
+  const json required = test::schema_json(GetParam().schema)["required"];
   ASSERT_FALSE(required.empty());
   for (const std::string member : required) {
     json document = read_json(file());
@@ -84,21 +57,28 @@ INSTANTIATE_TEST_SUITE_P(Contracts, SchemaOfContract, testing::ValuesIn(contract
   return label;
 });
 
-TEST(Schema, AcceptsEveryLineOfTheJournalContract) {
-  const std::filesystem::path file = top / "../shared/contracts/journal.jsonl";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the contracts are not beside this checkout";
+void expect_journal(const std::filesystem::path& file) {
   std::istringstream lines{std::string(as_text(*read_file(file)))};
   int count = 0;
   for (std::string line; std::getline(lines, line); ++count) {
     EXPECT_EQ(complaints("journal", json::parse(line)), "") << line;
   }
-  EXPECT_EQ(count, 7);
+  EXPECT_GT(count, 1);
 }
+
+TEST(Schema, AcceptsEveryLineOfTheJournalContract) {
+  const std::filesystem::path file = top / "../shared/contracts/journal.jsonl";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the contracts are not beside this checkout";
+  expect_journal(file);
+}
+
+TEST(Schema, AcceptsEveryLineOfTheSampleJournal) { expect_journal(top / "assets/sample.patchlab"); }
 
 TEST(Schema, RefusesAJournalLineThatDoesNothingKnown) {
   EXPECT_NE(complaints("journal", {{"do", "dance"}}), "");
   EXPECT_NE(complaints("journal", {{"do", "rename"}, {"target", "patch-1"}}), "");
   EXPECT_NE(complaints("journal", {{"do", "select"}, {"region", "r"}, {"scan", "s"}, {"mode", "set"}}), "");
+  EXPECT_NE(complaints("journal", {{"do", "undo"}, {"twice", true}}), "");
 }
 
 TEST(Schema, AcceptsThePatchSetsThatAreWritten) {
