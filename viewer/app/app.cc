@@ -143,6 +143,7 @@ void App::frame() {
 void App::draw() {
   const float scale = platform_.scale();
   stage_.update(workbench_.document(), state_, workbench_.changes(), scale);
+  stage_.size_points(layout_.view.height, state_.point_size * scale);
   const ViewCamera camera = view();
   state_.notes = stage_.notes(camera);
   state_.drawing = lasso_.drawing();

@@ -75,6 +75,26 @@ std::optional<double> depth_seen_by_sensor(const Scan& scan) {
   return *middle;
 }
 
+double point_spacing(const Scan& scan) {
+  std::vector<double> steps;
+  for (std::size_t i = 0; scan.organized() && i + 1 < scan.size(); i += 7) {
+    const bool same_row = i % scan.width + 1 < scan.width;
+    if (same_row && scan.finite[i] && scan.finite[i + 1]) {
+      steps.push_back((scan.positions[i + 1] - scan.positions[i]).norm());
+    }
+  }
+  if (!steps.empty()) {
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle;
+  }
+  const std::optional<Bounds> box = bounds(scan);
+  if (!box) return 0.0;
+  Eigen::Vector3d sides = box->max - box->min;
+  std::sort(sides.begin(), sides.end());
+  return std::sqrt(sides[1] * sides[2] / static_cast<double>(scan.finite_count));
+}
+
 void turn_towards(OrbitCamera& camera, const Eigen::Vector3d& outwards) {
   const ViewCamera view = view_camera(camera, 1, 1);
   const auto& q = view.quaternion_xyzw;

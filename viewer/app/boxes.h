@@ -17,6 +17,10 @@ std::optional<Bounds> box_of(const Document& document, const std::string& id);
 // scan is not what one sensor saw from its viewpoint.
 std::optional<double> depth_seen_by_sensor(const Scan& scan);
 
+// Median distance between neighbours of the pixel grid, or what it would be if the points covered their box
+// evenly, m.
+double point_spacing(const Scan& scan);
+
 // Turns the camera about its pivot until the eye is in direction `outwards`.
 void turn_towards(OrbitCamera& camera, const Eigen::Vector3d& outwards);
 

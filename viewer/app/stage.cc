@@ -1,6 +1,7 @@
 #include "viewer/app/stage.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "viewer/app/boxes.h"
@@ -10,6 +11,9 @@ namespace patchlab::viewer {
 
 namespace {
 
+// Of the distance between points, how much a point covers; and how much larger than asked for it may get.
+constexpr double point_share = 0.6;
+constexpr float most_larger = 3.0f;
 constexpr double flight_seconds = 0.22;
 constexpr double sensor_fov = 0.80;  // rad, where the scan does not say its own
 
@@ -21,8 +25,8 @@ double fov_of(const Scan& scan) {
 }  // namespace
 
 void Stage::update(const Document& document, const ViewState& state, std::uint64_t generation, float scale) {
-  const Drawn wanted{generation,   state.selected,   state.theme, state.colours,
-                     state.layers, state.point_size, scale,       shades_made_};
+  const Drawn wanted{generation,   state.selected, state.theme, state.colours,
+                     state.layers, scale,          shades_made_};
   if (drawn_ == wanted) return;
   drawn_ = wanted;
   const Theme colours = theme(state.theme);
@@ -34,18 +38,32 @@ void Stage::update(const Document& document, const ViewState& state, std::uint64
   if (!document.scans.empty() && document.scans.front().scan)
     scene_.origin = document.scans.front().scan->origin;
   const PointScene in{document, state, colours};
-  add_points(in, scale);
+  add_points(in);
   add_patches(in, scale);
   notes_.residual_colours = state.colours == PointColours::residual && find_patch(document, state.selected);
 }
 
-void Stage::add_points(const PointScene& in, float scale) {
+void Stage::add_points(const PointScene& in) {
+  drawn_spacings_.clear();
   for (const ScanEntry& entry : in.document.scans) {
     if (!entry.visible || !entry.scan) continue;
-    const auto shades = shades_.find(entry.scan.get());
+    const Scan* scan = entry.scan.get();
+    const auto shades = shades_.find(scan);
     scene_.points.push_back({point_positions(entry.scan, scene_.origin),
-                             point_colours(in, entry, shades == shades_.end() ? nullptr : shades->second),
-                             in.state.point_size * scale});
+                             point_colours(in, entry, shades == shades_.end() ? nullptr : shades->second)});
+    if (!spacings_.contains(scan)) spacings_[scan] = point_spacing(*scan);
+    drawn_spacings_.push_back(spacings_[scan]);
+  }
+}
+
+double Stage::metres_per_pixel(double viewport_height) const {
+  return 2 * camera.distance * std::tan(0.5 * camera.fov_y) / viewport_height;
+}
+
+void Stage::size_points(double viewport_height, float least) {
+  for (std::size_t i = 0; i < scene_.points.size(); ++i) {
+    const double apart = drawn_spacings_[i] / metres_per_pixel(viewport_height);
+    scene_.points[i].size = std::clamp(static_cast<float>(point_share * apart), least, most_larger * least);
   }
 }
 
@@ -84,7 +102,7 @@ const SurfaceMesh& Stage::surface_of(const PatchEntry& entry, const std::optiona
 
 SceneNotes Stage::notes(const ViewCamera& view) const {
   SceneNotes notes = notes_;
-  notes.metres_per_pixel = 2 * camera.distance * std::tan(0.5 * camera.fov_y) / view.viewport[1];
+  notes.metres_per_pixel = metres_per_pixel(view.viewport[1]);
   for (const AxisTip& tip : tips_) {
     const Projected seen = project(view, tip.position);
     if (seen.depth > view.near_plane) notes.labels.push_back({{seen.x, seen.y}, tip.text, tip.colour});

@@ -22,6 +22,8 @@ class Stage {
   // Makes the scene anew where `generation` or what the state says of the picture has changed.
   void update(const Document& document, const ViewState& state, std::uint64_t generation, float scale);
   const Scene& scene() const { return scene_; }
+  // Points as large as suits their distance from each other on the screen, but at least `least` pixels.
+  void size_points(double viewport_height, float least);
   // Notes for the overlays, with labels where `view` sees them.
   SceneNotes notes(const ViewCamera& view) const;
 
@@ -51,7 +53,7 @@ class Stage {
     ThemeChoice theme{};
     PointColours colours{};
     Layers layers;
-    float point_size = 0, scale = 0;
+    float scale = 0;
     std::size_t shades_made = 0;
     bool operator==(const Drawn&) const = default;
   };
@@ -64,7 +66,8 @@ class Stage {
 
   void fly_to(const OrbitCamera& to);
   OrbitCamera target() const { return flight_ ? flight_->to : camera; }
-  void add_points(const PointScene& in, float scale);
+  void add_points(const PointScene& in);
+  double metres_per_pixel(double viewport_height) const;  // at the pivot
   void add_patches(const PointScene& in, float scale);
   const SurfaceMesh& surface_of(const PatchEntry& entry, const std::optional<Rgba>& flat);
 
@@ -73,6 +76,8 @@ class Stage {
   SceneNotes notes_;
   std::vector<AxisTip> tips_;
   std::map<const Scan*, Shades> shades_;
+  std::map<const Scan*, double> spacings_;  // m
+  std::vector<double> drawn_spacings_;      // of the scene's points
   std::size_t shades_made_ = 0;
   std::map<std::string, KnownSurface> surfaces_;  // by patch id
   std::optional<Flight> flight_;

@@ -49,7 +49,7 @@ void draw_patch(const PanelInput& in, const PatchEntry& entry, Requests& out) {
   const FitResult& fit = *entry.fit;
   const ScanEntry* scan = find_scan(in.document, entry.scan);
   draw_title(in.gui, entry.name, kind_of(*fit.patch.type));
-  draw_verdict(in.gui, fit.report, scan && scan->noise.assumed);
+  draw_verdict(in.gui, fit.report);
   if (in.state.draft == entry.id) draw_keep_line(in, out);
   draw_parameters(in.gui, fit.patch);
   draw_correlation(in.gui, fit.patch);
@@ -112,7 +112,8 @@ void draw_welcome(const PanelInput& in, Requests& out) {
 
 void draw_inspector(const PanelInput& in, Requests& out) {
   const Gui& gui = in.gui;
-  begin_panel("inspector", in.layout.inspector, gui.theme.panel, {gui.px(18), gui.px(14)}, true);
+  begin_panel("inspector", in.layout.inspector, gui.theme.panel, {gui.px(18), gui.px(10)}, true);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gui.px(8), gui.px(4)});
   if (const PatchEntry* patch = find_patch(in.document, in.state.selected)) {
     draw_patch(in, *patch, out);
   } else if (const RegionEntry* region = find_region(in.document, in.state.selected)) {
@@ -122,6 +123,7 @@ void draw_inspector(const PanelInput& in, Requests& out) {
   } else if (in.document.scans.empty()) {
     draw_welcome(in, out);
   }
+  ImGui::PopStyleVar();
   end_panel();
 }
 

@@ -39,7 +39,7 @@ void draw_help_sheet(const PanelInput& in, PanelMemory& memory);
 void draw_toasts(const PanelInput& in);
 
 // Parts of the inspector.
-void draw_verdict(const Gui& gui, const FitReport& report, bool assumed_noise);
+void draw_verdict(const Gui& gui, const FitReport& report);
 void draw_parameters(const Gui& gui, const Patch& patch);
 void draw_correlation(const Gui& gui, const Patch& patch);
 void draw_residuals(const Gui& gui, const FitReport& report);

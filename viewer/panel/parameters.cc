@@ -21,14 +21,14 @@ void draw_row(const Gui& gui, const ParameterRow& parameter) {
   draw_label(gui, draw, at, theme.text_dim, parameter.name);
   draw_text_right(draw, gui.fonts.body, {at.x + width * 0.62f, at.y}, theme.text, parameter.value);
   draw_text_right(draw, gui.fonts.body, {at.x + width, at.y}, theme.text, parameter.sigma);
-  const float bar_y = at.y + gui.fonts.body->FontSize + gui.px(4), bar = gui.px(3);
+  const float bar_y = at.y + gui.fonts.body->FontSize + gui.px(2), bar = gui.px(3);
   draw.AddRectFilled({at.x, bar_y}, {at.x + width, bar_y + bar}, u32(theme.line), bar / 2);
   const float filled = width * static_cast<float>(bar_length(parameter.share));
   if (!parameter.sigma.empty() && filled > bar) {
     draw.AddRectFilled({at.x, bar_y}, {at.x + filled, bar_y + bar}, u32(bar_colour(theme, parameter.share)),
                        bar / 2);
   }
-  ImGui::Dummy({width, gui.fonts.body->FontSize + gui.px(9)});
+  ImGui::Dummy({width, gui.fonts.body->FontSize + gui.px(6)});
   if (!parameter.sigma.empty()) {
     tooltip(gui, "The standard deviation is " + significant(parameter.share * 100.0, 2) + " % " +
                      parameter.of + ". The bar is logarithmic: from 0.01 % to 100 %.");

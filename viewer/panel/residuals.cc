@@ -40,7 +40,7 @@ void draw_residuals(const Gui& gui, const FitReport& report) {
   const Theme& theme = gui.theme;
   const Histogram h = histogram(report.residuals);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = gui.px(74);
+  const float width = ImGui::GetContentRegionAvail().x, height = gui.px(64);
   const double top = std::max(h.highest, normal_density(0.0)) * 1.04;
   const auto x_of = [&](double sigma) {
     return at.x + width * static_cast<float>((sigma + reach) / (2 * reach));

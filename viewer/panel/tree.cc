@@ -153,7 +153,9 @@ void draw_history(const PanelInput& in, Requests& out) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (ImGui::IsItemHovered()) {
       draw.AddRectFilled(from, {from.x + width, from.y + height}, u32(gui.theme.hover), gui.px(5));
-      tooltip(gui, in.state.history[i] + (last ? "" : stands ? "\nGo back to this step." : "\nDo again up to this step."));
+      tooltip(gui, in.state.history[i] + (last     ? ""
+                                          : stands ? "\nGo back to this step."
+                                                   : "\nDo again up to this step."));
     }
     Rgba colour = stands ? gui.theme.text_dim : with_alpha(gui.theme.text_dim, 0.45f);
     if (last) colour = gui.theme.text;

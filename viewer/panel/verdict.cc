@@ -48,7 +48,7 @@ std::string numbers_of(const FitReport& report) {
 
 }  // namespace
 
-void draw_verdict(const Gui& gui, const FitReport& report, bool assumed_noise) {
+void draw_verdict(const Gui& gui, const FitReport& report) {
   const Tone tone = tone_of(gui.theme, report);
   const float pad = gui.px(11);
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -72,8 +72,6 @@ void draw_verdict(const Gui& gui, const FitReport& report, bool assumed_noise) {
   for (const Finding& warning : report.warnings) {
     if (!is_about_frame(warning)) write(gui.fonts.body, gui.theme.text, warning.sentence);
   }
-  if (assumed_noise)
-    write(gui.fonts.body, gui.theme.text, "The noise model is assumed, not stated by the scan.");
   ImGui::PopTextWrapPos();
   ImGui::EndGroup();
   const float height = ImGui::GetItemRectSize().y + 2 * pad;
