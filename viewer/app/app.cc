@@ -47,7 +47,7 @@ App::App(Platform& platform, Renderer renderer, AppOptions options)
 }
 
 void App::open(const std::filesystem::path& file) {
-  if (file.extension() == ".patchlab") journal_to_show_ = file;
+  journal_to_show_ = file.extension() == ".patchlab" ? std::optional(file) : std::nullopt;
   workbench_.open(file);
 }
 
@@ -94,8 +94,12 @@ void App::show_new_document() {
   if (!exists(document, state_.selected)) state_.selected = newest(document);
   platform_.set_title(document.scans.empty() ? "patchlab" : document.scans.back().name + " - patchlab");
   make_shades();
-  if (document.scans.empty() || camera_of_ == document.scans.back().id) return;
-  camera_of_ = document.scans.back().id;
+  if (!document.scans.empty() && camera_of_ != document.scans.back().scan) set_up_camera();
+}
+
+void App::set_up_camera() {
+  const Document& document = workbench_.document();
+  camera_of_ = document.scans.back().scan;
   view_of_sensor();
   stage_.settle();
   if (!journal_to_show_) return;
@@ -108,7 +112,7 @@ void App::show_new_document() {
 
 void App::make_shades() {
   for (const ScanEntry& entry : workbench_.document().scans) {
-    if (!entry.scan || stage_.has_shades(*entry.scan)) continue;
+    if (!entry.scan || stage_.has_shades(entry.scan)) continue;
     stage_.set_shades(entry.scan, nullptr);
     workbench_.in_background([this, scan = entry.scan] {
       auto shades = std::make_shared<const std::vector<std::uint8_t>>(point_shades(*scan));

@@ -53,6 +53,7 @@ class App {
   // app.cc
   void collect();  // what the workbench has to say, into the view state
   void show_new_document();
+  void set_up_camera();
   void make_shades();
   void draw();
   void toast(const std::string& text, bool is_error);
@@ -101,7 +102,7 @@ class App {
   std::vector<Error> errors_;
   std::optional<std::filesystem::path> journal_to_show_;  // its camera is taken when it is open
   std::string styled_for_;                                // theme and scale that ImGui's style was made for
-  std::string camera_of_;                                 // what the camera was last set up for
+  std::shared_ptr<const Scan> camera_of_;                 // what the camera was last set up for
   std::uint64_t seen_changes_ = 0;
   std::optional<float> wanted_scale_;  // of the interface, from the next frame on
   bool close_ = false;

@@ -66,22 +66,39 @@ const RegionEntry* lit_region(const Document& document, const std::string& selec
   return find_region(document, patch ? patch->region : selected);
 }
 
-Shared<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, const Shades& shades) {
-  auto colours = std::make_shared<std::vector<Rgba8>>(entry.scan->size());
-  paint_base(in, entry, shades, *colours);
+std::vector<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, const Shades& shades) {
+  std::vector<Rgba8> colours(entry.scan->size());
+  paint_base(in, entry, shades, colours);
   const RegionEntry* lit = lit_region(in.document, in.state.selected);
   for (const RegionEntry& region : in.document.regions) {
     if (region.scan != entry.id || !region.visible || !region.points || &region == lit) continue;
-    tint(*region.points, category_colour(region.id), *colours);
+    tint(*region.points, category_colour(region.id), colours);
   }
-  if (lit && lit->scan == entry.id) paint(lit->points, to_bytes(in.theme.point_selected), *colours);
+  if (lit && lit->scan == entry.id) paint(lit->points, to_bytes(in.theme.point_selected), colours);
   const PatchEntry* patch = find_patch(in.document, in.state.selected);
   if (patch && patch->scan == entry.id && patch->fit && patch->points) {
     if (in.state.colours == PointColours::residual)
-      paint_residuals(*patch, in.theme.neutral_lightness, *colours);
-    paint_outliers(*patch, in.theme.point_outlier, *colours);
+      paint_residuals(*patch, in.theme.neutral_lightness, colours);
+    paint_outliers(*patch, in.theme.point_outlier, colours);
   }
   return colours;
+}
+
+std::optional<PointsItem> chosen_points(const PointScene& in, const ScanEntry& entry,
+                                        const Eigen::Vector3d& origin, std::vector<Rgba8>& colours) {
+  const PatchEntry* patch = find_patch(in.document, in.state.selected);
+  const RegionEntry* lit = lit_region(in.document, in.state.selected);
+  const bool covered = patch && patch->visible && patch->fit && in.state.layers.surface;
+  if (!covered || !lit || !lit->points || lit->scan != entry.id) return std::nullopt;
+  auto positions = std::make_shared<std::vector<Eigen::Vector3f>>();
+  auto own_colours = std::make_shared<std::vector<Rgba8>>();
+  const Eigen::Vector3f moved = (entry.scan->origin - origin).cast<float>();
+  for (const std::uint32_t id : *lit->points) {
+    positions->push_back(entry.scan->positions[id] + moved);
+    own_colours->push_back(colours[id]);
+    colours[id][3] = 0;
+  }
+  return PointsItem{positions, own_colours};
 }
 
 Shared<Eigen::Vector3f> point_positions(const std::shared_ptr<const Scan>& scan,

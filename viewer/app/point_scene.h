@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/project/document.h"
@@ -26,7 +27,12 @@ struct PointScene {
 const RegionEntry* lit_region(const Document& document, const std::string& selected);
 
 // `shades` may be null: all points are drawn alike then.
-Shared<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, const Shades& shades);
+std::vector<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, const Shades& shades);
+
+// The points of the chosen patch as an item of their own, where its surface is drawn: they must not hide it.
+// They are taken out of `colours`. Nothing where no such patch is of this scan.
+std::optional<PointsItem> chosen_points(const PointScene& in, const ScanEntry& entry,
+                                        const Eigen::Vector3d& origin, std::vector<Rgba8>& colours);
 
 // The positions about another origin; the scan's own array where the origins agree.
 Shared<Eigen::Vector3f> point_positions(const std::shared_ptr<const Scan>& scan,

@@ -11,6 +11,6 @@ namespace patchlab::viewer {
 
 // 0..255 a point; 0 where it is not finite. Quick for organised scans (normals by differences on the pixel
 // grid); others get normals from their neighbours up to `normals_limit` points, and distance alone above it.
-std::vector<std::uint8_t> point_shades(const Scan& scan, std::size_t normals_limit = 300'000);
+std::vector<std::uint8_t> point_shades(const Scan& scan, std::size_t normals_limit = 150'000);
 
 }  // namespace patchlab::viewer

@@ -13,6 +13,7 @@ namespace {
 
 // Of the distance between points, how much a point covers; and how much larger than asked for it may get.
 constexpr double point_share = 0.6;
+constexpr double chosen_share = 0.45;  // of that, where a surface is to be seen between them
 constexpr float most_larger = 3.0f;
 constexpr double flight_seconds = 0.22;
 constexpr double sensor_fov = 0.80;  // rad, where the scan does not say its own
@@ -47,12 +48,17 @@ void Stage::add_points(const PointScene& in) {
   drawn_spacings_.clear();
   for (const ScanEntry& entry : in.document.scans) {
     if (!entry.visible || !entry.scan) continue;
-    const Scan* scan = entry.scan.get();
+    const std::shared_ptr<const Scan>& scan = entry.scan;
     const auto shades = shades_.find(scan);
+    std::vector<Rgba8> colours = point_colours(in, entry, shades == shades_.end() ? nullptr : shades->second);
+    const std::optional<PointsItem> chosen = chosen_points(in, entry, scene_.origin, colours);
     scene_.points.push_back({point_positions(entry.scan, scene_.origin),
-                             point_colours(in, entry, shades == shades_.end() ? nullptr : shades->second)});
+                             std::make_shared<const std::vector<Rgba8>>(std::move(colours))});
     if (!spacings_.contains(scan)) spacings_[scan] = point_spacing(*scan);
     drawn_spacings_.push_back(spacings_[scan]);
+    if (!chosen) continue;
+    scene_.points.push_back(*chosen);
+    drawn_spacings_.push_back(chosen_share * spacings_[scan]);
   }
 }
 
@@ -111,7 +117,7 @@ SceneNotes Stage::notes(const ViewCamera& view) const {
 }
 
 void Stage::set_shades(const std::shared_ptr<const Scan>& scan, Shades shades) {
-  shades_[scan.get()] = std::move(shades);
+  shades_[scan] = std::move(shades);
   ++shades_made_;
 }
 

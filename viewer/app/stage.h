@@ -29,7 +29,7 @@ class Stage {
 
   // Shades of a scan that the worker has made; a scan without them is drawn plain.
   void set_shades(const std::shared_ptr<const Scan>& scan, Shades shades);
-  bool has_shades(const Scan& scan) const { return shades_.contains(&scan); }
+  bool has_shades(const std::shared_ptr<const Scan>& scan) const { return shades_.contains(scan); }
 
   // Cameras. Each flies there in a moment; settle() jumps to the end.
   void view_of_sensor(const Scan& scan, double aspect);
@@ -75,9 +75,9 @@ class Stage {
   std::optional<Drawn> drawn_;
   SceneNotes notes_;
   std::vector<AxisTip> tips_;
-  std::map<const Scan*, Shades> shades_;
-  std::map<const Scan*, double> spacings_;  // m
-  std::vector<double> drawn_spacings_;      // of the scene's points
+  std::map<std::shared_ptr<const Scan>, Shades> shades_;
+  std::map<std::shared_ptr<const Scan>, double> spacings_;  // m
+  std::vector<double> drawn_spacings_;                      // of the scene's points
   std::size_t shades_made_ = 0;
   std::map<std::string, KnownSurface> surfaces_;  // by patch id
   std::optional<Flight> flight_;

@@ -4,6 +4,12 @@
 
 namespace patchlab::viewer {
 
+ApplyOptions with_progress(const Progress& progress) {
+  ApplyOptions options;
+  options.progress = progress;
+  return options;
+}
+
 Workbench::Workbench(WorkbenchOptions options, std::function<void()> wake)
     : options_(std::move(options)), worker_(std::move(wake)) {}
 
@@ -47,13 +53,17 @@ void Workbench::report(const Error& error) {
   if (error.code != ErrorCode::cancelled) errors_.push_back(error);
 }
 
-void Workbench::record(const Command& command, Document after) {
-  if (const Result<void> done = session_.record(command, std::move(after)); !done) report(done.error());
+bool Workbench::record(const Command& command, Document after) {
+  if (const Result<void> done = session_.record(command, std::move(after)); !done) {
+    report(done.error());
+    return false;
+  }
   after_change();
+  return true;
 }
 
 void Workbench::run_now(const Command& command) {
-  if (const Result<void> done = session_.run(command); !done) report(done.error());
+  if (const Result<void> done = session_.run(command); !done) return report(done.error());
   after_change();
 }
 

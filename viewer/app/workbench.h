@@ -37,6 +37,8 @@ struct WorkbenchOptions {
   bool keep_journals = true;       // false: nothing is written (a picture of a journal)
 };
 
+ApplyOptions with_progress(const Progress& progress);
+
 class Workbench {
  public:
   // `wake` is called from the worker's thread when there is something for deliver().
@@ -74,6 +76,10 @@ class Workbench {
 
   const Document& document() const { return draft_ ? draft_->document : session_.document(); }
   const Session& session() const { return session_; }
+  // The journal that the document comes from, also where it is only shown; empty where there is none.
+  const std::filesystem::path& journal() const {
+    return shown_journal_.empty() ? session_.journal() : shown_journal_;
+  }
   const std::string& focused_region() const { return region_; }
   // Id of the patch that is fitted but not kept; empty where there is none.
   std::string draft_patch() const { return draft_ && draft_->fit ? draft_->fit->patch : std::string(); }
@@ -116,7 +122,8 @@ class Workbench {
   void open_scan(const std::filesystem::path& file);
   void record_scan(OpenScan command, Document after);
   Result<void> begin_journal(const std::filesystem::path& scan);
-  void record(const Command& command, Document after);
+  bool record(const Command& command,
+              Document after);  // false: it could not be written, and nothing has changed
   void run_now(const Command& command);
   void report(const Error& error);
   void refit();
@@ -127,6 +134,7 @@ class Workbench {
 
   WorkbenchOptions options_;
   Session session_;
+  std::filesystem::path shown_journal_;  // where the session keeps none
   FitChoice choice_;
   std::string region_;  // in focus
   std::optional<Draft> draft_;

@@ -4,16 +4,6 @@
 
 namespace patchlab::viewer {
 
-namespace {
-
-ApplyOptions with_progress(const Progress& progress) {
-  ApplyOptions options;
-  options.progress = progress;
-  return options;
-}
-
-}  // namespace
-
 void Workbench::open(const std::filesystem::path& file) {
   enqueue([this, file] { file.extension() == ".patchlab" ? open_journal(file) : open_scan(file); });
 }
@@ -26,6 +16,8 @@ void Workbench::open_journal(const std::filesystem::path& file) {
     return [this, opened] {
       if (!*opened) return report(opened->error());
       session_ = std::move(**opened);
+      region_.clear();
+      shown_journal_ = options_.keep_journals ? std::filesystem::path() : file;
       after_change();
       const Document& document = session_.document();
       if (!document.patches.empty()) focus(document.patches.back().id);
@@ -64,8 +56,7 @@ void Workbench::record_scan(OpenScan command, Document after) {
     if (entry.id != id || !entry.scan) continue;
     notices_.insert(notices_.end(), entry.scan->notices.begin(), entry.scan->notices.end());
   }
-  record(command, std::move(after));
-  if (find_scan(session_.document(), id)) selection_ = id;
+  if (record(command, std::move(after))) selection_ = id;
 }
 
 Result<void> Workbench::begin_journal(const std::filesystem::path& scan) {
@@ -81,7 +72,7 @@ void Workbench::write_patches(const ExportRequest& request) {
   enqueue([this, request] {
     order("exporting",
           [this, request, document = session_.document(),
-           journal = session_.journal()](const Progress&) -> Worker::Finish {
+           journal = journal()](const Progress&) -> Worker::Finish {
             const Result<void> written = export_patches(document, journal, request.format, request.file);
             return [this, written, request] {
               if (!written) return report(written.error());

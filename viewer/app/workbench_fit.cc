@@ -9,12 +9,6 @@ namespace patchlab::viewer {
 
 namespace {
 
-ApplyOptions with_progress(const Progress& progress) {
-  ApplyOptions options;
-  options.progress = progress;
-  return options;
-}
-
 const PatchEntry* patch_of(const Document& document, const std::string& region) {
   const auto found = std::find_if(document.patches.begin(), document.patches.end(),
                                   [&region](const PatchEntry& entry) { return entry.region == region; });
@@ -111,8 +105,8 @@ void Workbench::select(const Stroke& stroke) {
             return [this, command, after] {
               if (!*after) return report(after->error());
               const bool keep_wanted = keep_when_ready_;
-              std::optional<Draft> shown = std::exchange(draft_, std::nullopt);
-              record(command, std::move(**after));
+              std::optional<Draft> shown = draft_;
+              if (!record(command, std::move(**after))) return;
               draft_ = std::move(shown);  // until the fit of the recorded selection is there
               region_ = std::get<Select>(command).region;
               refit();
@@ -160,7 +154,7 @@ void Workbench::accept(Outcome outcome, bool keepable) {
   fit_message_ = outcome.error ? outcome.error->message : std::string();
   selection_ = draft_->fit ? draft_->fit->patch : region_;
   ++changes_;
-  if (keep_when_ready_ && keepable) keep();
+  if (std::exchange(keep_when_ready_, false) && keepable) keep();
 }
 
 void Workbench::keep() {
@@ -169,8 +163,8 @@ void Workbench::keep() {
     return;
   }
   if (!draft_ || !draft_->fit || !draft_->keepable) return;
-  const Draft draft = *std::exchange(draft_, std::nullopt);
-  record(*draft.fit, draft.document);
+  const Draft draft = *draft_;
+  if (!record(*draft.fit, draft.document)) return;
   currency_ = Currency::current;
   selection_ = draft.fit->patch;
 }

@@ -44,6 +44,11 @@ bool has_colours(const Document& document) {
                      [](const ScanEntry& entry) { return entry.scan && !entry.scan->colours.empty(); });
 }
 
+bool has_kept_patch(const Document& document, const std::string& draft) {
+  return std::any_of(document.patches.begin(), document.patches.end(),
+                     [&draft](const PatchEntry& entry) { return entry.id != draft; });
+}
+
 }  // namespace
 
 std::optional<SurfaceRequest> surface_of(Action action) { return find(kSurfaces, action); }
@@ -77,7 +82,7 @@ bool is_possible(Action action, const Document& document, const ViewState& state
     case Action::redo:
       return state.can_redo;
     case Action::export_patches:
-      return !document.patches.empty();
+      return has_kept_patch(document, state.draft);
     case Action::save_journal_as:
       return !state.journal.empty();
     case Action::remove:

@@ -15,11 +15,15 @@ ImVec2 size_of(ImFont* font, std::string_view text, float wrap_width) {
   return font->CalcTextSizeA(font->FontSize, 1e9f, wrap_width, text.data(), text.data() + text.size());
 }
 
-// The stem of a label and its subscript.
-std::pair<std::string_view, std::string_view> split_label(std::string_view text) {
+// A label before, in and after its subscript, which is the one character after "_".
+struct Label {
+  std::string_view stem, subscript, tail;
+};
+
+Label split_label(std::string_view text) {
   const std::size_t at = text.find('_');
-  if (at == std::string_view::npos) return {text, {}};
-  return {text.substr(0, at), text.substr(at + 1)};
+  if (at == std::string_view::npos || at + 1 == text.size()) return {text, {}, {}};
+  return {text.substr(0, at), text.substr(at + 1, 1), text.substr(at + 2)};
 }
 
 }  // namespace
@@ -73,18 +77,16 @@ std::string fit_text(ImFont* font, std::string_view text, float width) {
   return std::string(text) + dots;
 }
 
-float label_width(const Gui& gui, std::string_view text) {
-  const auto [stem, subscript] = split_label(text);
-  return text_size(gui.fonts.body, stem).x + text_size(gui.fonts.small, subscript).x;
-}
-
 float draw_label(const Gui& gui, ImDrawList& draw, ImVec2 at, const Rgba& colour, std::string_view text) {
-  const auto [stem, subscript] = split_label(text);
-  draw_text(draw, gui.fonts.body, at, colour, stem);
+  const Label label = split_label(text);
+  float x = at.x;
+  draw_text(draw, gui.fonts.body, {x, at.y}, colour, label.stem);
+  x += text_size(gui.fonts.body, label.stem).x;
   const float drop = gui.fonts.body->FontSize - gui.fonts.small->FontSize + gui.px(2);
-  draw_text(draw, gui.fonts.small, {at.x + text_size(gui.fonts.body, stem).x, at.y + drop}, colour,
-            subscript);
-  return label_width(gui, text);
+  draw_text(draw, gui.fonts.small, {x, at.y + drop}, colour, label.subscript);
+  x += text_size(gui.fonts.small, label.subscript).x;
+  draw_text(draw, gui.fonts.body, {x, at.y}, colour, label.tail);
+  return x + text_size(gui.fonts.body, label.tail).x - at.x;
 }
 
 void begin_panel(const char* name, const Rect& rect, const Rgba& ground, ImVec2 padding, bool scrolls) {

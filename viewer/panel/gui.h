@@ -32,9 +32,8 @@ ImU32 u32(const Rgba& colour);
 inline ImVec2 corner(const Rect& rect) { return {rect.x, rect.y}; }
 inline ImVec2 far_corner(const Rect& rect) { return {rect.right(), rect.bottom()}; }
 
-// Text with "_x" set as a subscript; returns its width. `draw` false only measures.
+// Text in which "_x" is a subscript; returns its width.
 float draw_label(const Gui& gui, ImDrawList& draw, ImVec2 at, const Rgba& colour, std::string_view text);
-float label_width(const Gui& gui, std::string_view text);
 
 void draw_text(ImDrawList& draw, ImFont* font, ImVec2 at, const Rgba& colour, std::string_view text);
 void draw_text_right(ImDrawList& draw, ImFont* font, ImVec2 right_at, const Rgba& colour,

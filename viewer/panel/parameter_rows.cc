@@ -25,9 +25,8 @@ void add_shape(const Patch& patch, const PatchVector& sigma, std::vector<Paramet
     const double kappa = patch.parameters[at], s = sigma[at];
     const std::string symbol = local_words(names[static_cast<std::size_t>(at)]);
     if (std::abs(kappa) > radius_is_known * s) {
-      const std::string subscript = symbol.substr(std::string("κ").size());
-      rows.push_back(value_row("radius 1/|κ" + (subscript.empty() ? "|" : "| " + subscript.substr(1)),
-                               1.0 / std::abs(kappa), s / (kappa * kappa), Dimension::length));
+      rows.push_back(value_row("radius 1/|" + symbol + "|", 1.0 / std::abs(kappa), s / (kappa * kappa),
+                               Dimension::length));
     }
     rows.push_back(value_row(symbol, kappa, s, Dimension::curvature));
   }

@@ -1,5 +1,7 @@
 #include "viewer/tool/lasso_tool.h"
 
+#include <cmath>
+
 #include "viewer/camera/orbit_camera.h"
 
 namespace patchlab::viewer {
@@ -8,10 +10,12 @@ namespace {
 
 constexpr std::size_t least_vertices = 3;
 
+constexpr double steps_a_pixel = 100.0;  // what a journal keeps of a contour
+
 std::optional<Eigen::Vector2d> pixel_of(const ViewCamera& camera, const Eigen::Vector3d& point) {
   const Projected p = project(camera, point);
   if (p.depth <= camera.near_plane) return std::nullopt;
-  return Eigen::Vector2d(p.x, p.y);
+  return Eigen::Vector2d(std::round(p.x * steps_a_pixel), std::round(p.y * steps_a_pixel)) / steps_a_pixel;
 }
 
 }  // namespace
