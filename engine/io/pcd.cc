@@ -48,14 +48,6 @@ std::vector<Column> one_after_another(const std::vector<PcdField>& fields, std::
   return columns;
 }
 
-void note_rest(const Source& source, std::uint64_t used) {
-  const std::string_view rest = source.data.substr(used);
-  if (rest.empty()) return;
-  const bool padding = rest.find_first_not_of('\0') == std::string_view::npos;
-  source.notices.push_back(std::to_string(rest.size()) + (padding ? " zero bytes (padding)" : " bytes") +
-                           " after the last point were left out.");
-}
-
 Error too_short(const Source& source, std::uint64_t needed) {
   return unreadable(source.name, std::to_string(source.header.points) + " points need " +
                                      std::to_string(needed) + " bytes after the header, but only " +
@@ -68,7 +60,7 @@ Result<Body> read_binary(const Source& source) {
   if (source.data.size() < needed) return too_short(source, needed);
   if (const auto fits = check_memory(source.name, source.header.points, 0, source.options); !fits)
     return fits.error();
-  note_rest(source, needed);
+  note_rest(source.data.substr(needed), source.notices);
   return Body{{}, interleaved(source.header.fields, source.data.data())};
 }
 
@@ -104,7 +96,7 @@ Result<Body> read_compressed(const Source& source) {
   if (!lzf_decompress(source.data.substr(sizes, compressed), body.memory)) {
     return unreadable(source.name, "its compressed points are damaged.");
   }
-  note_rest(source, compressed + sizes);
+  note_rest(source.data.substr(compressed + sizes), source.notices);
   body.columns = one_after_another(source.header.fields, source.header.points, body.memory.data());
   return body;
 }
@@ -162,7 +154,8 @@ Result<Body> read_ascii(const Source& source) {
   while (const auto line = lines.next()) {
     if (trimmed(*line).empty()) continue;
     if (stored == points) {
-      note_rest(source, static_cast<std::uint64_t>(line->data() - source.data.data()));
+      note_rest(source.data.substr(static_cast<std::size_t>(line->data() - source.data.data())),
+                source.notices);
       return body;
     }
     const auto read = store_line(source, fields, *line, lines.number(), body.memory.data() + stored * step);

@@ -1,7 +1,9 @@
-// How the readers word what is wrong with a file.
+// How the readers word what is wrong with a file, and what they left out.
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/base/result.h"
 
@@ -20,6 +22,14 @@ inline std::string shown(std::string_view text) {
   std::string quoted = "'";
   for (const char c : text.substr(0, longest)) quoted += (c >= ' ' && c != '\x7f') || c < '\0' ? c : '?';
   return quoted + (text.size() > longest ? "...'" : "'");
+}
+
+// What of a file follows its last point; some writers fill it up with zeros.
+inline void note_rest(std::string_view rest, std::vector<std::string>& notices) {
+  if (rest.empty()) return;
+  const bool padding = rest.find_first_not_of('\0') == std::string_view::npos;
+  notices.push_back(std::to_string(rest.size()) + (padding ? " zero bytes (padding)" : " bytes") +
+                    " after the last point were left out.");
 }
 
 }  // namespace patchlab

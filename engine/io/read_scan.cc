@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t sniffed = 64 << 10;  // bytes looked at to recognise a format
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::string_view convert =
-    "; patchlab reads PCD files and point tables (CSV with a header row x,y,z): convert it to one of them";
+    "; patchlab reads PCD and PLY files and point tables (CSV with a header row x,y,z): convert it to one of them";
 
 using Reader = Result<Scan> (*)(std::string_view bytes, const std::string& name, const ReadOptions& options);
 
@@ -41,6 +41,7 @@ bool is_pcd(std::string_view bytes) {
   constexpr std::string_view first_entries[] = {"VERSION", "FIELDS", "COLUMNS"};
   return bytes.starts_with("# .PCD") || one_of(first_word(bytes), first_entries);
 }
+bool is_ply(std::string_view bytes) { return bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n"); }
 bool is_point_table(std::string_view bytes) { return is_point_table_header(first_line(bytes)); }
 bool is_off(std::string_view bytes) {
   constexpr std::string_view magic[] = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "4OFF", "nOFF"};
@@ -73,14 +74,15 @@ struct ReaderRow {
   bool (*matches)(std::string_view bytes);
   Reader read;
 };
-constexpr ReaderRow readers[] = {{is_pcd, read_pcd}, {is_point_table, read_point_table}};
+constexpr ReaderRow readers[] = {{is_pcd, read_pcd}, {is_ply, read_ply}, {is_point_table, read_point_table}};
 
 struct Magic {
   std::string_view bytes;
   std::string_view what;
 };
 constexpr Magic magics[] = {
-    {"ply", "a PLY file"},
+    {"ply\r", "a PLY file whose lines end with a carriage return alone; convert the line ends to LF"},
+    {"ply", "a PLY file without a header"},
     {"LASF", "a LAS or LAZ file"},
     {"ASTM-E57", "an E57 file"},
     {"\x89PNG", "a PNG image"},

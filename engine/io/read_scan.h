@@ -28,6 +28,9 @@ Result<Scan> read_scan_bytes(std::string_view bytes, const std::string& name,
 
 // The single formats, from bytes already read; `name` is for messages.
 Result<Scan> read_pcd(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+// Ascii, little and big endian, elements in any order; the vertices become the points, `camera` the
+// viewpoint.
+Result<Scan> read_ply(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 // Header row `x,y,z[,cxx,cxy,cxz,cyy,cyz,czz]` (more columns are kept out with a notice); metres, metres^2.
 Result<Scan> read_point_table(std::string_view bytes, const std::string& name,
                               const ReadOptions& options = {});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "engine/io/read_scan.h"
 
@@ -17,7 +18,8 @@ using testing::HasSubstr;
 
 struct Expected {
   std::size_t points, finite;
-  const char* notice;  // part of one
+  const char* notice;                              // part of one
+  std::optional<Eigen::Vector3d> everywhere = {};  // where all points lie
 };
 
 constexpr const char* origin = "taken to be at the origin";
@@ -54,6 +56,29 @@ const std::map<std::string, Expected> accepted = {
     {"vp_short.pcd", {10, 10, "not seven numbers with a unit quaternion"}},
     {"vp_text.pcd", {10, 10, "not seven numbers with a unit quaternion"}},
     {"vp_zeroq.pcd", {10, 10, "not seven numbers with a unit quaternion"}},
+    {"camera.ply", {10, 10, "three axes at right angles"}},
+    {"crlf.ply", {10, 10, "'face' (2) was"}},
+    {"crlf_bin.ply", {10, 10, "'face' (2) was"}},
+    {"f_0gon.ply", {10, 10, "2 of them damaged"}},
+    {"f_255gon.ply", {10, 10, "'face' (1) was"}},
+    {"f_dup_vertex.ply", {10, 10, "'face' (2) was"}},
+    {"f_idx_neg.ply", {10, 10, "1 of them damaged"}},
+    {"f_idx_oob.ply", {10, 10, "1 of them damaged"}},
+    {"f_less.ply", {10, 10, "8 bytes after the last point"}},
+    {"face_before.ply", {10, 10, "'face' (1) was"}},
+    {"fb_less.ply", {10, 10, "13 bytes after the last point"}},
+    {"nan.ply", {10, 0, "None of the points"}},
+    {"ok_ascii.ply", {10, 10, "'face' (2) was"}},
+    {"ok_be.ply", {10, 10, "'face' (2) was"}},
+    {"ok_bin.ply", {10, 10, "'face' (2) was"}},
+    {"ok_nofaces.ply", {10, 10, origin}},
+    {"p_alpha_only.ply", {10, 10, origin, Eigen::Vector3d(1, 2, 3)}},
+    {"p_dbl.ply", {10, 10, origin}},
+    {"p_intensity.ply", {10, 10, origin, Eigen::Vector3d(2, 3, 255)}},
+    {"p_rgb_order.ply", {10, 10, origin, Eigen::Vector3d(1, 2, 3)}},
+    {"p_rgba_float.ply", {10, 10, origin, Eigen::Vector3d(1, 2, 3)}},
+    {"rangegrid.ply", {10, 10, "'range_grid' (10"}},
+    {"rangegrid_oob.ply", {10, 10, "10 of them damaged"}},
     {"ünïcødé_点群 space'q.pcd", {10, 10, origin}},
 };
 
@@ -74,7 +99,8 @@ void expect_read_rightly(const Scan& scan, const Expected& expected) {
   EXPECT_THAT(scan.notices, Contains(HasSubstr(expected.notice)));
   for (std::size_t i = 0; i < scan.size() && expected.finite > 0; ++i) {
     const double k = static_cast<double>(i);
-    EXPECT_LT((scan.point(i) - Eigen::Vector3d(0.1 * k, 0.2 * k, 1.0 + 0.01 * k)).norm(), 1e-6) << i;
+    const Eigen::Vector3d in_a_row(0.1 * k, 0.2 * k, 1.0 + 0.01 * k);
+    EXPECT_LT((scan.point(i) - expected.everywhere.value_or(in_a_row)).norm(), 1e-6) << i;
   }
 }
 

@@ -47,6 +47,17 @@ std::string table_file() {
   return "x,y,z,cxx,cxy,cxz,cyy,cyz,czz,label\n1,2,3,1e-6,0,0,1e-6,0,1e-6,1\n4,5,6,1e-6,0,0,1e-6,0,1e-6,2\n";
 }
 
+std::string ply_file(const std::string& format, const std::string& data) {
+  return "ply\nformat " + format +
+         " 1.0\nelement face 1\nproperty list uchar ushort vertex_indices\nelement vertex 3\n"
+         "property float x\nproperty double y\nproperty short z\nend_header\n" +
+         data;
+}
+std::string ascii_ply_file() { return ply_file("ascii", "3 0 1 2\n1 2 3\n.5 5 6\n-1e0 8 9\n"); }
+std::string big_endian_ply_file() {
+  return ply_file("binary_big_endian", std::string("\3\0\0\0\1\0\2", 7) + std::string(3 * 14, '\1'));
+}
+
 // Bytes, and pieces of text that headers and numbers are made of.
 std::string mutated(std::string file, Random& random) {
   const std::string pieces[] = {"-1", "0", "4294967295", "99999999999",       "1e9", " ", "\n", "\r\n", "nan",
@@ -108,10 +119,12 @@ TEST_P(MutationTest, IsRefusedOrWhole) {
 
 INSTANTIATE_TEST_SUITE_P(Files, MutationTest,
                          testing::Values(write_pcd(small_scan()), ascii_file(), compressed_file(),
-                                         table_file(), header + "DATA binary\n" + std::string(6 * 18, '\1')));
+                                         table_file(), header + "DATA binary\n" + std::string(6 * 18, '\1'),
+                                         ascii_ply_file(), big_endian_ply_file()));
 
 TEST(Mutation, StartsFromFilesThatAreRead) {
-  for (const std::string& file : {write_pcd(small_scan()), ascii_file(), compressed_file(), table_file()}) {
+  for (const std::string& file : {write_pcd(small_scan()), ascii_file(), compressed_file(), table_file(),
+                                  ascii_ply_file(), big_endian_ply_file()}) {
     const Result<Scan> scan = read_scan_bytes(file, "whole");
     ASSERT_TRUE(scan) << scan.error().message;
     expect_whole(*scan);

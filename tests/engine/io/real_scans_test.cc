@@ -23,6 +23,7 @@ struct RealScan {
 void PrintTo(const RealScan& scan, std::ostream* out) { *out << scan.file; }
 
 constexpr RealScan real_scans[] = {
+    {"gicp_source.ply", 69792, 69792, false},
     {"gpd_krylon.pcd", 4467, 4467, false},
     {"gpd_table_mug.pcd", 104444, 104444, false},
     {"gridmap_input_cloud.pcd", 56423, 56423, false},
