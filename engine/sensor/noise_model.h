@@ -8,7 +8,8 @@
 //                                   d^2) J'
 //   kinect1                         the stereo model above with the paper's Kinect numbers
 //   isotropic:0.002                 the same standard deviation in every direction, m
-// `help()` lists each with its formula and the source of its numbers.
+//   estimated:0.002                 isotropic, as default_noise_model found it in the scan; marked as assumed
+// noise_help() lists each with its formula and the source of its numbers.
 #pragma once
 
 #include <Eigen/Core>

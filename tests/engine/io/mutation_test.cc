@@ -5,8 +5,8 @@
 
 #include <numeric>
 
-#include "engine/base/random.h"
 #include "engine/io/read_scan.h"
+#include "tests/support/seeded_random.h"
 
 namespace patchlab {
 namespace {
@@ -100,7 +100,7 @@ void expect_whole(const Scan& scan) {
 class MutationTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(MutationTest, IsRefusedOrWhole) {
-  Random random(GetParam().size());
+  test::SeededRandom random;
   int accepted = 0;
   for (int i = 0; i < mutations_a_file; ++i) {
     const std::string file = mutated(GetParam(), random);

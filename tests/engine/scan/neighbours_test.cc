@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/base/random.h"
+#include "tests/support/seeded_random.h"
 
 namespace patchlab {
 namespace {
@@ -16,7 +16,7 @@ using testing::IsEmpty;
 
 // Random points, every seventh without a measurement.
 Scan random_scan(std::size_t size) {
-  Random random(size);
+  test::SeededRandom random;
   Scan scan;
   scan.width = static_cast<std::uint32_t>(size);
   for (std::size_t i = 0; i < size; ++i) {

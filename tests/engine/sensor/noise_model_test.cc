@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "engine/base/random.h"
+#include "tests/support/seeded_random.h"
 
 namespace patchlab {
 namespace {
@@ -99,7 +99,7 @@ TEST(StereoNoise, IsTheFirstOrderImageOfPixelAndDisparityNoise) {
 }
 
 TEST(NoiseModel, CovariancesAreSymmetricAndNowhereNegative) {
-  Random random(1);
+  test::SeededRandom random;
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d point(random.normal(), random.normal(), random.uniform(0.3, 8.0));
     for (const char* specification : {"kinect1", "isotropic:0.003"}) {
@@ -111,7 +111,7 @@ TEST(NoiseModel, CovariancesAreSymmetricAndNowhereNegative) {
 }
 
 TEST(NoiseModel, TurnsWithTheSensor) {
-  Random random(2);
+  test::SeededRandom random;
   for (int i = 0; i < 50; ++i) {
     const Eigen::Quaterniond turn =
         Eigen::AngleAxisd(random.uniform(0, 3), random.unit3()) * Eigen::Quaterniond::Identity();
@@ -134,7 +134,7 @@ TEST(NoiseHelp, ShowsEveryModel) {
 
 // A plane with noise along its normal, points `spacing` apart.
 Scan noisy_plane(double spacing, double sigma, int side) {
-  Random random(3);
+  test::SeededRandom random;
   Scan scan;
   for (int i = 0; i < side * side; ++i) {
     const Eigen::Vector3d point(spacing * (i % side), spacing * (i / side), 1.0 + sigma * random.normal());
