@@ -37,38 +37,47 @@ struct LeastSquaresSummary {
   NormalEquations at_solution;
 };
 
-// Marquardt's scaling, Nielsen's damping. Converged when the undamped step is below `stop`, or when no step
-// of any damping lowers the cost any more.
+// A damped step solves (A + damping D) step = -b. Three rules keep it from running away:
+//
+// Scaling (More): D is the largest diagonal of A met so far. Each parameter is measured in units of its own
+// information, and one that has drifted to where the data hardly see it is still held by the scale it had;
+// with the present diagonal alone its damping would vanish just when it is needed.
+//
+// Sight: a step that takes nearly all information from some parameter is refused even where it lowers the
+// cost: the model has been thrown onto a plateau, from which no gradient leads back.
+//
+// Delayed gratification: damping grows little after a refused step and falls more after an accepted one, so
+// that curved valleys are followed along their floor instead of being crossed greedily.
+//
+// Converged when a nearly undamped step is below `stop`, or when no step of any damping is accepted.
 template <class Problem>
 LeastSquaresSummary minimise(const Problem& problem, typename Problem::State& state,
                              const LeastSquaresOptions& options = {}) {
+  constexpr double rise = 2.0, fall = 4.0, largest_damping = 1e12;
+  constexpr double least_sight = 1e-4;  // share of its information a parameter keeps in one step
   LeastSquaresSummary summary;
   NormalEquations here = problem.evaluate(state);
-  double damping = options.initial_damping, growth = 2.0;
-  constexpr double largest_damping = 1e12;
-  while (summary.iterations < options.max_iterations && std::isfinite(here.cost)) {
+  StepVector scale = StepVector::Zero(here.b.size());
+  double damping = options.initial_damping;
+  while (!summary.converged && summary.iterations < options.max_iterations && std::isfinite(here.cost)) {
     ++summary.iterations;
-    const StepVector scale = here.A.diagonal().cwiseMax(1e-30 * here.A.diagonal().maxCoeff());
+    const StepVector information = here.A.diagonal();
+    scale = scale.cwiseMax(information).cwiseMax(1e-30 * information.maxCoeff());
     const StepMatrix damped = here.A + StepMatrix((damping * scale).asDiagonal());
     const StepVector step = -damped.ldlt().solve(here.b);
     const double length = step.dot(here.A * step);
-    const double predicted = step.dot(damping * scale.cwiseProduct(step) - here.b);
     auto candidate = problem.retract(state, step);
     NormalEquations there = problem.evaluate(candidate);
-    const double gain = (here.cost - there.cost) / predicted;
-    if (there.cost <= here.cost && std::isfinite(there.cost)) {
+    const bool in_sight = (there.A.diagonal().array() >= least_sight * information.array()).all();
+    if (in_sight && std::isfinite(there.cost) && there.cost <= here.cost) {
       state = std::move(candidate);
       here = std::move(there);
-      damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * gain - 1.0, 3));
-      damping = std::max(damping, 1e-15);
-      growth = 2.0;
       summary.converged = length < options.stop && damping < 1.0;
+      damping /= fall;
     } else {
-      damping *= growth;
-      growth *= 2.0;
       summary.converged = length < 1e-3 * options.stop || damping > largest_damping;
+      damping *= rise;
     }
-    if (summary.converged) break;
   }
   summary.at_solution = std::move(here);
   return summary;
