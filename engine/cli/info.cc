@@ -47,7 +47,7 @@ ordered_json to_json(const Scan& scan) {
           {"notices", scan.notices}};
 }
 
-// A name that is not UTF-8 text shows replacement characters.
+// A file name need not be UTF-8, JSON must be: what is not becomes U+FFFD.
 std::string json_text_of(const Scan& scan) {
   return to_json(scan).dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
@@ -89,18 +89,13 @@ std::string to_text(const Scan& scan) {
   return text;
 }
 
-// A file name need not be UTF-8, JSON must be: what is not becomes U+FFFD.
-std::string as_utf8(const ordered_json& json) {
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace);
-}
-
 Result<int> info(const Request& request) {
   ProgressLine line("reading");
   const Result<Scan> scan = read_scan(
       request.scan, {.points_in_sensor_frame = request.points_in_sensor_frame, .progress = line.progress()});
   if (!scan) return scan.error();
   Outputs outputs;
-  outputs.add("-", request.json ? as_utf8(to_json(*scan)) + "\n" : to_text(*scan));
+  outputs.add("-", request.json ? json_text_of(*scan) : to_text(*scan));
   return outputs.write();
 }
 
