@@ -13,7 +13,7 @@ void Workbench::open_journal(const std::filesystem::path& file) {
     auto opened = std::make_shared<Result<Session>>(options_.keep_journals
                                                         ? Session::open(file, with_progress(progress))
                                                         : replayed_session(file, progress));
-    return [this, opened] {
+    return [this, file, opened] {
       if (!*opened) return report(opened->error());
       session_ = std::move(**opened);
       region_.clear();
