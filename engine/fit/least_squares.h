@@ -37,7 +37,7 @@ struct LeastSquaresSummary {
   NormalEquations at_solution;
 };
 
-// A damped step solves (A + damping D) step = -b. Three rules keep it from running away:
+// A damped step solves (A + damping D) step = -b. Three rules guide it:
 //
 // Scaling (More): D is the largest diagonal of A met so far. Each parameter is measured in units of its own
 // information, and one that has drifted to where the data hardly see it is still held by the scale it had;
@@ -46,19 +46,19 @@ struct LeastSquaresSummary {
 // Sight: a step that takes nearly all information from some parameter is refused even where it lowers the
 // cost: the model has been thrown onto a plateau, from which no gradient leads back.
 //
-// Delayed gratification: damping grows little after a refused step and falls more after an accepted one, so
-// that curved valleys are followed along their floor instead of being crossed greedily.
+// Damping (Nielsen): it falls as far as the step's gain agrees with the prediction, and grows faster with
+// each refusal in a row.
 //
 // Converged when a nearly undamped step is below `stop`, or when no step of any damping is accepted.
 template <class Problem>
 LeastSquaresSummary minimise(const Problem& problem, typename Problem::State& state,
                              const LeastSquaresOptions& options = {}) {
-  constexpr double rise = 2.0, fall = 4.0, largest_damping = 1e12;
-  constexpr double least_sight = 1e-4;  // share of its information a parameter keeps in one step
+  constexpr double least_sight = 0.01;  // share of its information that a parameter keeps in one step
+  constexpr double steepest_fall = 0.2, first_growth = 2.0, largest_damping = 1e12;
   LeastSquaresSummary summary;
   NormalEquations here = problem.evaluate(state);
   StepVector scale = StepVector::Zero(here.b.size());
-  double damping = options.initial_damping;
+  double damping = options.initial_damping, growth = first_growth;
   while (!summary.converged && summary.iterations < options.max_iterations && std::isfinite(here.cost)) {
     ++summary.iterations;
     const StepVector information = here.A.diagonal();
@@ -66,17 +66,21 @@ LeastSquaresSummary minimise(const Problem& problem, typename Problem::State& st
     const StepMatrix damped = here.A + StepMatrix((damping * scale).asDiagonal());
     const StepVector step = -damped.ldlt().solve(here.b);
     const double length = step.dot(here.A * step);
+    const double predicted = step.dot(damping * scale.cwiseProduct(step) - here.b);
     auto candidate = problem.retract(state, step);
     NormalEquations there = problem.evaluate(candidate);
     const bool in_sight = (there.A.diagonal().array() >= least_sight * information.array()).all();
     if (in_sight && std::isfinite(there.cost) && there.cost <= here.cost) {
+      const double gain = (here.cost - there.cost) / predicted;
       state = std::move(candidate);
       here = std::move(there);
       summary.converged = length < options.stop && damping < 1.0;
-      damping /= fall;
+      damping *= std::max(steepest_fall, 1.0 - std::pow(2.0 * gain - 1.0, 3));
+      growth = first_growth;
     } else {
       summary.converged = length < 1e-3 * options.stop || damping > largest_damping;
-      damping *= rise;
+      damping *= growth;
+      growth *= 2.0;
     }
   }
   summary.at_solution = std::move(here);

@@ -19,6 +19,7 @@ using EdgeMatrix = Eigen::Matrix<double, 8, 8>;
 
 struct SoftShape {
   EdgeVector edges;
+  double inset = 0.0;                          // m: how far inside the true edges these lie, by the softening
   EdgeMatrix covariance = EdgeMatrix::Zero();  // inverse of the information; rank 5 for a rectangle
   double log_likelihood = 0.0;
   bool converged = false;
@@ -29,6 +30,8 @@ enum class Corners { free, right };  // a convex quad, or a rectangle
 // `weights` sum to 1; `used` is N; `lateral_variance` that of the points' noise in the plane, m^2.
 SoftShape fit_soft_edges(const std::vector<Vector2d>& points, const std::vector<double>& weights, double used,
                          double lateral_variance, Corners corners);
+
+EdgeVector moved_out(const EdgeVector& edges, double by);
 
 // The convex quad (21) with these edges: d_1..d_4 gamma, the turn of its x axis from the frame's (w_z), its
 // centre (t_x, t_y), and the derivatives of these eight for the edges.

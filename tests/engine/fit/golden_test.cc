@@ -75,20 +75,10 @@ const Case cases[] = {
     {"hypparab_0", SurfaceRequest::hyperbolic_paraboloid, BoundaryRequest::automatic, false},
 };
 
-class Golden : public testing::TestWithParam<Case> {
+class ReferenceFits : public testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(folder())) GTEST_SKIP() << "no reference fits beside the project";
-  }
-  FitResult fit(FitMethod method) {
-    const Observations observations = read_table(GetParam().name);
-    FitOptions options;
-    options.surface = GetParam().surface;
-    options.boundary = GetParam().boundary;
-    options.method = method;
-    Result<FitResult> result = fit_patch(observations, options);
-    EXPECT_TRUE(result) << (result ? "" : result.error().message);
-    return result ? *result : FitResult{};
   }
   // Of the patch and its half turn, the description nearer to the reference.
   static Patch alike(const Patch& patch, const Eigen::VectorXd& reference) {
@@ -104,11 +94,31 @@ class Golden : public testing::TestWithParam<Case> {
     const Eigen::VectorXd sigma = cov.diagonal().cwiseSqrt();
     for (Eigen::Index i = 0; i < p.size(); ++i) {
       EXPECT_LE(std::abs(patch.parameters[i] - p[i]), in_sigmas * sigma[i]) << "parameter " << i;
-      for (Eigen::Index j = 0; j < p.size(); ++j) {
+    }
+    expect_same_covariance(patch, cov, in_covariance);
+  }
+  static void expect_same_covariance(const Patch& patch, const Eigen::MatrixXd& cov, double in_covariance) {
+    const Eigen::VectorXd sigma = cov.diagonal().cwiseSqrt();
+    for (Eigen::Index i = 0; i < sigma.size(); ++i) {
+      for (Eigen::Index j = 0; j < sigma.size(); ++j) {
         EXPECT_LE(std::abs((*patch.covariance)(i, j) - cov(i, j)), in_covariance * sigma[i] * sigma[j])
             << "covariance " << i << ", " << j;
       }
     }
+  }
+};
+
+class Golden : public ReferenceFits, public testing::WithParamInterface<Case> {
+ protected:
+  FitResult fit(FitMethod method) {
+    const Observations observations = read_table(GetParam().name);
+    FitOptions options;
+    options.surface = GetParam().surface;
+    options.boundary = GetParam().boundary;
+    options.method = method;
+    Result<FitResult> result = fit_patch(observations, options);
+    EXPECT_TRUE(result) << (result ? "" : result.error().message);
+    return result ? *result : FitResult{};
   }
 };
 
@@ -117,7 +127,34 @@ TEST_P(Golden, CalibratedMethodGivesTheReference) {
   const FitResult result = fit(FitMethod::calibrated);
   EXPECT_TRUE(result.report.converged);
   EXPECT_NEAR(result.report.chi2, reference["chi2_points"].get<double>(), 2e-3);
-  expect_same(result.patch, reference, 0.02, 0.02);
+  if (result.patch.type->boundary != BoundaryType::convex_quad)
+    expect_same(result.patch, reference, 0.02, 0.02);
+}
+
+// The reference leaves a quad's edges where the softened likelihood puts them, a third of the softening
+// inside the true ones (fit_soft_edges); ours are moved out by it, which turns and lifts nothing and changes
+// no covariance.
+TEST_F(ReferenceFits, QuadIsTheReferencesMovedOut) {
+  const nlohmann::json reference = read_reference("plane_cquad_0")["recommended"];
+  FitOptions options;
+  options.surface = SurfaceRequest::plane;
+  options.boundary = BoundaryRequest::convex_quad;
+  const Result<FitResult> result = fit_patch(read_table("plane_cquad_0"), options);
+  ASSERT_TRUE(result);
+  const Eigen::VectorXd p = vector_of(reference["params"]);
+  const Eigen::MatrixXd cov = matrix_of(reference["Sigma"]);
+  const Patch patch = alike(result->patch, p);
+  for (Eigen::Index i = 5; i < 8; ++i) {
+    EXPECT_LE(std::abs(patch.parameters[i] - p[i]), 0.02 * std::sqrt(cov(i, i))) << "parameter " << i;
+  }
+  const Vector3d z = axes(patch).col(2);
+  const double lift = z.dot(patch.parameters.tail<3>() - p.tail<3>());
+  EXPECT_LE(std::abs(lift), 0.02 * std::sqrt(z.dot(cov.bottomRightCorner<3, 3>() * z)));
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    EXPECT_GT(patch.parameters[i], p[i]);
+    EXPECT_LT(patch.parameters[i] - p[i], 0.5 * std::sqrt(cov(i, i)));
+  }
+  expect_same_covariance(patch, cov, 0.02);
 }
 
 TEST_P(Golden, PaperMethodGivesTheReference) {
