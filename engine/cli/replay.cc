@@ -82,6 +82,7 @@ Action set_up_replay(CLI::App& app) {
   app.add_option("journal", request->journal, "a journal; - is standard input")->required();
   app.add_option("-o,--output", request->output, "write the patch set; - is standard output");
   app.add_option("--export", request->exports, "FORMAT=FILE, once for each; see patchlab help formats")
+      ->allow_extra_args(false)
       ->expected(1)
       ->take_all();
   app.add_option("--on", request->on, "run it on this scan instead of the recorded one");

@@ -1,6 +1,7 @@
 #include "viewer/app/app.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <ctime>
 #include <utility>
 
@@ -21,6 +22,13 @@ std::string time_of_day() {
   char text[16];
   std::strftime(text, sizeof text, "%H:%M:%S", &local);
   return text;
+}
+
+// With the home folder as "~".
+std::string short_path(const std::filesystem::path& path) {
+  const char* home = std::getenv("HOME");
+  const std::string text = path.string(), start = std::string(home ? home : "") + "/";
+  return start.size() > 1 && text.starts_with(start) ? "~/" + text.substr(start.size()) : text;
 }
 
 bool exists(const Document& document, const std::string& id) {
@@ -89,7 +97,7 @@ void App::show_new_document() {
   }
   state_.can_undo = session.can_undo();
   state_.can_redo = session.can_redo();
-  state_.journal = session.journal().string();
+  state_.journal = short_path(session.journal());
   const Document& document = workbench_.document();
   if (!exists(document, state_.selected)) state_.selected = newest(document);
   platform_.set_title(document.scans.empty() ? "patchlab" : document.scans.back().name + " - patchlab");

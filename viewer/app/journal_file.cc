@@ -52,6 +52,12 @@ Result<fs::path> new_journal_path(const fs::path& folder, const fs::path& scan) 
   return journal;
 }
 
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path parent = fs::absolute(file).parent_path();
+  return fs::equivalent(parent, folder, error) && !error;
+}
+
 std::string path_for_journal(const fs::path& scan, const fs::path& journal) {
   const fs::path absolute = fs::absolute(scan).lexically_normal();
   if (journal.empty()) return absolute.string();

@@ -18,6 +18,9 @@ std::filesystem::path default_journal_folder();
 Result<std::filesystem::path> new_journal_path(const std::filesystem::path& folder,
                                                const std::filesystem::path& scan);
 
+// Whether a file lies directly in a folder, whatever links lead there.
+bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder);
+
 // How a scan's file is named in a journal: relative to it; absolute where there is no journal.
 std::string path_for_journal(const std::filesystem::path& scan, const std::filesystem::path& journal);
 

@@ -64,8 +64,9 @@ std::variant<ViewerOptions, Exit> parse_options(int argc, const char* const* arg
   cli.add_option("--scale", options.scale, "of the interface; 1 is for 96 dots an inch")
       ->check(CLI::Range(0.5f, 4.0f));
   cli.add_option("--theme", theme_name, "dark or light")->check(CLI::IsMember({"dark", "light"}));
-  cli.add_option("--export", exports, "write the patches at the end (with --headless)")
-      ->type_name("FORMAT=FILE");
+  cli.add_option("--export", exports, "write the patches at the end (with --headless); may be repeated")
+      ->type_name("FORMAT=FILE")
+      ->allow_extra_args(false);
   cli.set_version_flag("--version", std::string("patchlab-viewer ") + PATCHLAB_VERSION);
   try {
     cli.parse(argc, argv);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/scan/normals.h"
 
@@ -28,9 +29,10 @@ Vector3f difference(const Scan& scan, std::size_t i, std::size_t step, bool befo
   return next - last;
 }
 
-// Means along one direction of the grid over `reach` pixels each side, where the normals are alike.
+// Means along one direction of the grid over `reach` pixels each side.
+template <class Together>
 std::vector<Vector3f> smoothed_along(const Scan& scan, const std::vector<Vector3f>& normals, int reach,
-                                     bool rows) {
+                                     bool rows, Together together) {
   const int width = static_cast<int>(scan.width), height = static_cast<int>(scan.height);
   std::vector<Vector3f> result(normals.size(), Vector3f::Zero());
   for (int y = 0; y < height; ++y) {
@@ -40,8 +42,8 @@ std::vector<Vector3f> smoothed_along(const Scan& scan, const std::vector<Vector3
       for (int k = -reach; k <= reach; ++k) {
         const int nx = rows ? x + k : x, ny = rows ? y : y + k;
         if (nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
-        const Vector3f& other = normals[static_cast<std::size_t>(ny * width + nx)];
-        if (other.dot(normals[i]) > 0.5f) result[i] += other;
+        const auto j = static_cast<std::size_t>(ny * width + nx);
+        if (together(i, j)) result[i] += normals[j];
       }
       result[i].normalize();
     }
@@ -49,8 +51,21 @@ std::vector<Vector3f> smoothed_along(const Scan& scan, const std::vector<Vector3
   return result;
 }
 
-std::vector<Vector3f> smoothed(const Scan& scan, const std::vector<Vector3f>& normals, int reach) {
-  return smoothed_along(scan, smoothed_along(scan, normals, reach, true), reach, false);
+// First over all of one surface, so that a wild normal is outvoted; then over those that agree, so that edges
+// stay.
+std::vector<Vector3f> smoothed(const Scan& scan, const Vector3f& sensor, std::vector<Vector3f> normals,
+                               int reach) {
+  const auto of_one_surface = [&scan, &sensor](std::size_t i, std::size_t j) {
+    const Vector3f& here = scan.positions[i];
+    return scan.finite[j] && (scan.positions[j] - here).norm() < edge * (here - sensor).norm();
+  };
+  for (const bool rows : {true, false}) normals = smoothed_along(scan, normals, reach, rows, of_one_surface);
+  for (const bool rows : {true, false}) {
+    const std::vector<Vector3f>& now = normals;
+    normals = smoothed_along(scan, now, reach, rows,
+                             [&now](std::size_t i, std::size_t j) { return now[j].dot(now[i]) > 0.5f; });
+  }
+  return normals;
 }
 
 // The noise of a single point is as large as the steps between pixels: neighbours some pixels apart, then
@@ -68,7 +83,7 @@ std::vector<Vector3f> grid_normals(const Scan& scan, const Vector3f& sensor) {
     normals[i] = along.cross(down).normalized();
     if (normals[i].dot(sensor - scan.positions[i]) < 0) normals[i] = -normals[i];
   }
-  return smoothed(scan, normals, static_cast<int>(reach));
+  return smoothed(scan, sensor, std::move(normals), static_cast<int>(reach));
 }
 
 // Range within the scan as 0 (near) to 1 (far), the outermost hundredths cut off.

@@ -12,9 +12,10 @@ namespace patchlab::viewer {
 namespace {
 
 // Of the distance between points, how much a point covers; and how much larger than asked for it may get.
-constexpr double point_share = 0.6;
-constexpr double chosen_share = 0.45;  // of that, where a surface is to be seen between them
-constexpr float most_larger = 3.0f;
+constexpr double point_share = 1.25;
+constexpr double chosen_share = 0.15;  // of that, where a surface is to be seen between them
+constexpr double set_back = 2.5;  // of that distance: what noise alone puts before a patch does not hide it
+constexpr float most_larger = 6.0f;
 constexpr double flight_seconds = 0.22;
 constexpr double sensor_fov = 0.80;  // rad, where the scan does not say its own
 
@@ -56,6 +57,7 @@ void Stage::add_points(const PointScene& in) {
                              std::make_shared<const std::vector<Rgba8>>(std::move(colours))});
     if (!spacings_.contains(scan)) spacings_[scan] = point_spacing(*scan);
     drawn_spacings_.push_back(spacings_[scan]);
+    scene_.points.back().set_back = static_cast<float>(set_back * spacings_[scan]);
     if (!chosen) continue;
     scene_.points.push_back(*chosen);
     drawn_spacings_.push_back(chosen_share * spacings_[scan]);

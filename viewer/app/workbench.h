@@ -44,8 +44,8 @@ class Workbench {
   // `wake` is called from the worker's thread when there is something for deliver().
   Workbench(WorkbenchOptions options, std::function<void()> wake);
 
-  // In the background. A journal (.patchlab) replaces the session; a scan joins it, with a new journal where
-  // there is none.
+  // In the background. A journal (.patchlab) replaces the session: one of the folder of journals is gone on
+  // with, of one from elsewhere a copy there. A scan joins the session, with a new journal where there is none.
   void open(const std::filesystem::path& file);
   void run(Command command);  // quick ones: rename, delete, show
   void undo();
@@ -118,6 +118,7 @@ class Workbench {
   void start_next();
   void order(const std::string& name, Worker::Job job);
 
+  Result<Session> begin_session(const std::filesystem::path& file, const Progress& progress) const;
   void open_journal(const std::filesystem::path& file);
   void open_scan(const std::filesystem::path& file);
   void record_scan(OpenScan command, Document after);

@@ -8,14 +8,30 @@ void Workbench::open(const std::filesystem::path& file) {
   enqueue([this, file] { file.extension() == ".patchlab" ? open_journal(file) : open_scan(file); });
 }
 
+// A journal is gone on with in the program's own folder: one from elsewhere is another's work, or a file
+// under version control, and is copied there first.
+Result<Session> Workbench::begin_session(const std::filesystem::path& file, const Progress& progress) const {
+  if (!options_.keep_journals) return replayed_session(file, progress);
+  if (lies_in(file, options_.journals)) return Session::open(file, with_progress(progress));
+  const Result<std::filesystem::path> copy = new_journal_path(options_.journals, file);
+  if (!copy) return copy.error();
+  if (const Result<void> copied = copy_journal(file, *copy); !copied) return copied.error();
+  Result<Session> session = Session::open(*copy, with_progress(progress));
+  std::error_code ignored;
+  if (!session) std::filesystem::remove(*copy, ignored);
+  return session;
+}
+
 void Workbench::open_journal(const std::filesystem::path& file) {
   order("opening " + file.filename().string(), [this, file](const Progress& progress) -> Worker::Finish {
-    auto opened = std::make_shared<Result<Session>>(options_.keep_journals
-                                                        ? Session::open(file, with_progress(progress))
-                                                        : replayed_session(file, progress));
+    auto opened = std::make_shared<Result<Session>>(begin_session(file, progress));
     return [this, file, opened] {
       if (!*opened) return report(opened->error());
       session_ = std::move(**opened);
+      if (options_.keep_journals && session_.journal() != file) {
+        notices_.push_back(file.filename().string() + " stays as it is; what you do is saved in " +
+                           session_.journal().string() + ".");
+      }
       region_.clear();
       shown_journal_ = options_.keep_journals ? std::filesystem::path() : file;
       after_change();

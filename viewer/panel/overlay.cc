@@ -43,7 +43,7 @@ void draw_pill(const PanelInput& in, ImDrawList& draw) {
 
 // A ground that keeps text readable over any scan.
 void draw_plate(const Gui& gui, ImVec2 from, ImVec2 to, ImDrawList& draw) {
-  draw.AddRectFilled(from, to, u32(with_alpha(gui.theme.panel, 0.80f)), gui.px(7));
+  draw.AddRectFilled(from, to, u32(with_alpha(gui.theme.panel, 0.88f)), gui.px(7));
 }
 
 void draw_notes(const PanelInput& in, ImDrawList& draw) {
@@ -90,7 +90,7 @@ void draw_scale_bar(const PanelInput& in, ImDrawList& draw) {
   draw_text(
       draw, gui.fonts.small,
       {at.x + (width - text_size(gui.fonts.small, text).x) / 2, at.y - gui.px(8) - gui.fonts.small->FontSize},
-      gui.theme.text_dim, text);
+      gui.theme.text, text);
 }
 
 // A vertical bar at the right of the view, with three labels and a title below.
@@ -186,17 +186,37 @@ void draw_badge(const PanelInput& in, ImDrawList& draw) {
             badge);
 }
 
+// Text that can be read over anything: with a rim in the colour of the panels.
+void draw_rimmed(const Gui& gui, ImDrawList& draw, ImVec2 at, const Rgba& colour, const std::string& text) {
+  const float rim = gui.px(1.25f);
+  for (const ImVec2 aside : {ImVec2{-rim, 0}, ImVec2{rim, 0}, ImVec2{0, -rim}, ImVec2{0, rim}}) {
+    draw_text(draw, gui.fonts.strong, {at.x + aside.x, at.y + aside.y}, gui.theme.panel, text);
+  }
+  draw_text(draw, gui.fonts.strong, at, colour, text);
+}
+
+// Labels that would overlap one before them move down past it.
+void draw_labels(const PanelInput& in, ImDrawList& draw) {
+  std::vector<ImVec2> taken;
+  const ImVec2 room = {in.gui.px(12), in.gui.fonts.strong->FontSize};
+  for (const SceneNotes::Label& label : in.state.notes.labels) {
+    ImVec2 at = {in.layout.view.x + static_cast<float>(label.pixel.x()) - room.x / 2,
+                 in.layout.view.y + static_cast<float>(label.pixel.y()) - room.y / 2};
+    for (const ImVec2& other : taken) {
+      if (std::abs(other.x - at.x) < room.x && std::abs(other.y - at.y) < room.y) at.y = other.y + room.y;
+    }
+    taken.push_back(at);
+    draw_rimmed(in.gui, draw, at, label.colour, label.text);
+  }
+}
+
 }  // namespace
 
 void draw_overlay(const PanelInput& in) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const Rect& view = in.layout.view;
   draw.PushClipRect(corner(view), far_corner(view));
-  for (const SceneNotes::Label& label : in.state.notes.labels) {
-    draw_text(draw, in.gui.fonts.strong,
-              {view.x + static_cast<float>(label.pixel.x()), view.y + static_cast<float>(label.pixel.y())},
-              label.colour, label.text);
-  }
+  draw_labels(in, draw);
   draw_contour(in, draw);
   draw_badge(in, draw);
   draw_notes(in, draw);

@@ -46,6 +46,9 @@ void draw_residuals(const Gui& gui, const FitReport& report);
 void draw_candidates(const Gui& gui, const FitReport& report, SurfaceType shown, Requests& out);
 
 // Words.
+// What a fit is blamed for and what it is warned of, each once: reasons first. Remarks about the frame that
+// the parameters are given in stand beside the correlations.
+std::vector<std::string> sentences_of(const FitReport& report);
 std::string surface_words(SurfaceType surface);        // "elliptic paraboloid"
 std::string short_surface_words(SurfaceType surface);  // "ell. paraboloid"
 std::string boundary_words(BoundaryType boundary);

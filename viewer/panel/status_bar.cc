@@ -33,7 +33,9 @@ std::string facts(const PanelInput& in) {
   if (in.state.currency == Currency::current && in.state.fit_milliseconds > 0) {
     add("fit " + significant(in.state.fit_milliseconds, 2) + " ms");
   }
-  if (!in.state.saved.empty()) add(in.state.saved);
+  if (!in.state.saved.empty()) {
+    add(in.state.saved + " in " + fit_path(in.gui.fonts.body, in.state.journal, in.gui.px(300)));
+  }
   return text;
 }
 

@@ -48,6 +48,19 @@ std::string numbers_of(const FitReport& report) {
 
 }  // namespace
 
+std::vector<std::string> sentences_of(const FitReport& report) {
+  std::vector<Finding> said = report.reasons;
+  for (const Finding& warning : report.warnings) {
+    const bool known = std::any_of(said.begin(), said.end(), [&warning](const Finding& finding) {
+      return finding.name == warning.name || finding.sentence == warning.sentence;
+    });
+    if (!known && !is_about_frame(warning)) said.push_back(warning);
+  }
+  std::vector<std::string> sentences;
+  for (const Finding& finding : said) sentences.push_back(finding.sentence);
+  return sentences;
+}
+
 void draw_verdict(const Gui& gui, const FitReport& report) {
   const Tone tone = tone_of(gui.theme, report);
   const float pad = gui.px(11);
@@ -68,10 +81,7 @@ void draw_verdict(const Gui& gui, const FitReport& report) {
   };
   write(gui.fonts.strong, tone.text, headline(report));
   write(gui.fonts.body, gui.theme.text, numbers_of(report));
-  for (const Finding& reason : report.reasons) write(gui.fonts.body, gui.theme.text, reason.sentence);
-  for (const Finding& warning : report.warnings) {
-    if (!is_about_frame(warning)) write(gui.fonts.body, gui.theme.text, warning.sentence);
-  }
+  for (const std::string& sentence : sentences_of(report)) write(gui.fonts.body, gui.theme.text, sentence);
   ImGui::PopTextWrapPos();
   ImGui::EndGroup();
   const float height = ImGui::GetItemRectSize().y + 2 * pad;

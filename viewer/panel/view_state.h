@@ -78,7 +78,7 @@ struct ViewState {
   std::size_t position = 0;  // how much of the history stands
   bool can_undo = false, can_redo = false;
   std::string saved;    // "saved 14:02:11"
-  std::string journal;  // its path
+  std::string journal;  // its path, with ~ for the home folder
   std::optional<Busy> busy;
   std::vector<Toast> toasts;
   SceneNotes notes;

@@ -68,6 +68,7 @@ void PointPass::draw(const std::vector<PointsItem>& items, const View& view, con
   for (const PointsItem& item : items) {
     if (!complete(item)) continue;
     program_.set("size", item.size);
+    program_.set("set_back", item.set_back);
     bind(item);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>((item.positions->size() - 1) / item.step + 1));
   }

@@ -21,6 +21,7 @@ struct PointsItem {
   Shared<Eigen::Vector3f> positions;  // NaN positions are skipped
   Shared<Rgba8> colours;              // one a point; alpha: 0 leaves it out, between fades to the background
   float size = 2.0f;                  // px
+  float set_back = 0.0f;              // m: surfaces and lines so close behind a point are drawn over it
   std::size_t step = 1;  // draws every step-th point only: a prime, while the camera moves over a large scan
 };
 

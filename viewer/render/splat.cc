@@ -89,6 +89,7 @@ void Canvas::clear(int w, int h, const Rgba& bottom, const Rgba& top) {
 void splat(Canvas& canvas, const PointsItem& item, const View& view, const PointFade& fade) {
   const Eigen::Matrix4f clip_from_local = view.clip_from_view * view.view_from_local;
   const Eigen::RowVector4f depth_row = -view.view_from_local.row(2);
+  const Eigen::Vector2f one_further = -view.clip_from_view.block<2, 1>(2, 2);  // of clip z and w, a metre
   const float half_width = 0.5f * static_cast<float>(canvas.width),
               half_height = 0.5f * static_cast<float>(canvas.height);
   const Shade background = 255.0f * fade.background;
@@ -105,8 +106,10 @@ void splat(Canvas& canvas, const PointsItem& item, const View& view, const Point
     if (colour[3] == 0) continue;
     const float far_part = std::clamp((depth_row.dot(local) - fade.nearest) / fade.depth, 0.0f, 1.0f);
     const float kept = static_cast<float>(colour[3]) / 255.0f * (1.0f - PointFade::kFarthest * far_part);
+    const Eigen::Vector2f set_back = clip.tail<2>() + item.set_back * one_further;
     splatter.draw({half_width * (clip.x() / w + 1.0f), half_height * (clip.y() / w + 1.0f),
-                   to_depth(clip.z() / w), background + kept * (shade_of(colour) - background)});
+                   to_depth(std::min(set_back.x() / set_back.y(), 1.0f)),
+                   background + kept * (shade_of(colour) - background)});
   }
 }
 

@@ -26,6 +26,16 @@ TEST(Options, AreReadAsTheContractSays) {
   EXPECT_EQ(options->exports[0].format, "ply");
 }
 
+TEST(Options, AnExportTakesOneValueSoThatAScanMayFollowIt) {
+  const auto parsed =
+      parse({"--headless", "--export", "ply=a.ply", "scan.pcd", "--export", "patch_set=a.json", "more.pcd"});
+  const ViewerOptions* options = std::get_if<ViewerOptions>(&parsed);
+  ASSERT_TRUE(options) << std::get<Exit>(parsed).text;
+  EXPECT_EQ(options->files, (std::vector<std::filesystem::path>{"scan.pcd", "more.pcd"}));
+  ASSERT_EQ(options->exports.size(), 2u);
+  EXPECT_EQ(options->exports[1].file, "a.json");
+}
+
 TEST(Options, WrongUsageIsTwoWithASentence) {
   const std::vector<std::vector<const char*>> wrong = {
       {"--size", "big"},   {"--size", "10x10", "--headless"}, {"--theme", "pink"},

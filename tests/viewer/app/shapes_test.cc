@@ -36,7 +36,8 @@ TEST(EllipsoidMesh, LiesOnTheEllipsoidThatManyTimesLarger) {
 TEST(EllipsoidMesh, OfAFlatEllipsoidIsFlatAndFinite) {
   Ellipsoid shape = example();
   shape.half_lengths[2] = 0;
-  for (const MeshVertex& vertex : *ellipsoid_mesh(shape, 1, shape.centre, {1, 1, 1, 1}).vertices) {
+  const MeshItem mesh = ellipsoid_mesh(shape, 1, shape.centre, {1, 1, 1, 1});
+  for (const MeshVertex& vertex : *mesh.vertices) {
     EXPECT_TRUE(vertex.position.allFinite());
     EXPECT_TRUE(vertex.normal.allFinite());
     EXPECT_LT(std::abs(vertex.position.z()), 1e-3);

@@ -209,12 +209,12 @@ TEST_F(WorkbenchTest, ThePatchesAreExportedAndTheJournalIsCopiedWithItsScanStill
   EXPECT_EQ(replayed->patches.size(), 1u);
 }
 
-TEST_F(WorkbenchTest, AJournalIsGoneOnWithWhereItEnded) {
+TEST_F(WorkbenchTest, AJournalOfTheFolderIsGoneOnWithWhereItEnded) {
   bench_.select(square(13));
   bench_.keep();
   finish();
   const std::filesystem::path journal = bench_.session().journal();
-  const std::filesystem::path copy = folder_.path() / "copy.patchlab";
+  const std::filesystem::path copy = folder_.path() / "state" / "copy.patchlab";
   ASSERT_TRUE(copy_journal(journal, copy));
   bench_.open(copy);
   finish();
@@ -223,6 +223,43 @@ TEST_F(WorkbenchTest, AJournalIsGoneOnWithWhereItEnded) {
   EXPECT_EQ(kept().patches.size(), 1u);
   EXPECT_EQ(bench_.session().history().size(), 3u);
   EXPECT_EQ(bench_.take_selection(), "patch-1");
+}
+
+TEST_F(WorkbenchTest, AJournalFromElsewhereStaysAsItIsAndACopyIsGoneOnWith) {
+  bench_.select(square(13));
+  bench_.keep();
+  finish();
+  const std::filesystem::path other = folder_.path() / "other.patchlab";
+  ASSERT_TRUE(copy_journal(bench_.session().journal(), other));
+  const Bytes before = *read_file(other);
+  bench_.take_notices();
+  bench_.open(other);
+  finish();
+  ASSERT_TRUE(errors_.empty()) << errors_[0];
+  const std::filesystem::path journal = bench_.session().journal();
+  EXPECT_EQ(journal.parent_path(), folder_.path() / "state");
+  const std::vector<std::string> notices = bench_.take_notices();
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_NE(notices[0].find(journal.string()), std::string::npos) << notices[0];
+
+  bench_.run(Rename{"patch-1", "ball"});
+  EXPECT_EQ(*read_file(other), before);
+  const Result<Document> replayed = replay(journal);
+  ASSERT_TRUE(replayed) << replayed.error().message;
+  EXPECT_EQ(replayed->patches.at(0).name, "ball");
+}
+
+TEST_F(WorkbenchTest, AJournalThatCannotBeReplayedLeavesNoCopy) {
+  const std::filesystem::path other = folder_.path() / "other.patchlab";
+  ASSERT_TRUE(write_file(other, journal_header() + "\n{\"do\": \"delete\", \"target\": \"scan-9\"}\n"));
+  const auto journals = [this] {
+    return std::distance(std::filesystem::directory_iterator(folder_.path() / "state"), {});
+  };
+  const auto before = journals();
+  bench_.open(other);
+  finish();
+  EXPECT_EQ(errors_.size(), 1u);
+  EXPECT_EQ(journals(), before);
 }
 
 TEST(WorkbenchWithoutJournals, LeavesTheJournalItShowsAsItIs) {
