@@ -9,13 +9,13 @@
 namespace patchlab {
 namespace {
 
-struct Request {
+struct ExportRequest {
   std::string set;
   std::string format;
   std::string output = "-";
 };
 
-Result<int> export_set(const Request& request) {
+Result<int> export_set(const ExportRequest& request) {
   const Result<const ExportFormat*> format = export_format(request.format);
   if (!format) return format.error();
   const Result<Bytes> bytes = read_file(request.set);
@@ -33,7 +33,7 @@ Result<int> export_set(const Request& request) {
 }  // namespace
 
 Action set_up_export(CLI::App& app) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ExportRequest>();
   app.add_option("patches", request->set, "a patch set; - is standard input")->required();
   app.add_option("--format", request->format, "see patchlab help formats")->required();
   app.add_option("-o,--output", request->output, "where to write; standard output without it");

@@ -12,7 +12,7 @@
 namespace patchlab {
 namespace {
 
-struct Request {
+struct FitRequest {
   OpenScan open{.id = "scan-1", .file = {}};
   std::string region_file;
   std::optional<std::uint32_t> label;
@@ -27,7 +27,7 @@ std::optional<bool> on_off(std::string_view name) {
 }
 
 // The points asked for, as the command that selects them.
-Result<Select> selection(const Request& request, const Scan& scan) {
+Result<Select> selection(const FitRequest& request, const Scan& scan) {
   Select select{.region = "all", .scan = request.open.id};
   if (request.label) {
     select.region = "label-" + std::to_string(*request.label);
@@ -53,7 +53,7 @@ void say_assumptions(const ScanEntry& entry) {
       " is assumed; name one with --noise.");
 }
 
-Result<Document> run(const Request& request) {
+Result<Document> run(const FitRequest& request) {
   ProgressLine line("fitting");
   const ApplyOptions options{.folder = {}, .on = {}, .progress = line.progress()};
   Session session;
@@ -69,7 +69,7 @@ Result<Document> run(const Request& request) {
   return session.document();
 }
 
-Result<int> fit(const Request& request) {
+Result<int> fit(const FitRequest& request) {
   if (request.open.file == "-" && request.region_file == "-") {
     return Error{ErrorCode::usage, "Scan and region cannot both come from standard input."};
   }
@@ -108,7 +108,7 @@ void add_fit_options(CLI::App& app, FitOptions& options) {
 }  // namespace
 
 Action set_up_fit(CLI::App& app) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<FitRequest>();
   app.add_option("scan", request->open.file, "a scan; - is standard input")->required();
   CLI::Option* const region =
       app.add_option("--region", request->region_file, "point indices, one a line or JSON");

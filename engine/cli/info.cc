@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Request {
+struct InfoRequest {
   std::string scan;
   bool points_in_sensor_frame = false;
   bool json = false;
@@ -89,7 +89,7 @@ std::string to_text(const Scan& scan) {
   return text;
 }
 
-Result<int> info(const Request& request) {
+Result<int> info(const InfoRequest& request) {
   ProgressLine line("reading");
   const Result<Scan> scan = read_scan(
       request.scan, {.points_in_sensor_frame = request.points_in_sensor_frame, .progress = line.progress()});
@@ -102,7 +102,7 @@ Result<int> info(const Request& request) {
 }  // namespace
 
 Action set_up_info(CLI::App& app) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<InfoRequest>();
   app.add_option("scan", request->scan, "a scan; - is standard input")->required();
   add_points_in(app, request->points_in_sensor_frame);
   app.add_flag("--json", request->json, "print JSON");

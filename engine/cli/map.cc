@@ -9,13 +9,13 @@
 namespace patchlab {
 namespace {
 
-struct Request {
+struct MapRequest {
   std::string file;
   std::string output = "-";
   bool json = false;
 };
 
-Result<int> compose_chain(const Request& request) {
+Result<int> compose_chain(const MapRequest& request) {
   const Result<Bytes> bytes = read_file(request.file);
   if (!bytes) return bytes.error();
   const Result<Chain> chain =
@@ -31,7 +31,7 @@ Result<int> compose_chain(const Request& request) {
 }  // namespace
 
 Action set_up_map_chain(CLI::App& app) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<MapRequest>();
   app.add_option("file", request->file, "JSON: elements from the base to the end; - is standard input")
       ->required();
   app.add_option("-o,--output", request->output,

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct ReplayRequest {
   std::string journal;
   std::string output;
   std::vector<std::string> exports;  // FORMAT=FILE
@@ -39,13 +39,13 @@ Result<std::vector<Export>> parse_exports(const std::vector<std::string>& texts)
   return exports;
 }
 
-Result<void> check_outputs(const Request& request, const std::vector<Export>& exports) {
+Result<void> check_outputs(const ReplayRequest& request, const std::vector<Export>& exports) {
   std::vector<fs::path> files = {request.output, request.json ? "-" : ""};
   for (const Export& one : exports) files.push_back(one.file);
   return Outputs::check(files);
 }
 
-Result<int> replay_journal(const Request& request) {
+Result<int> replay_journal(const ReplayRequest& request) {
   const Result<std::vector<Export>> exports = parse_exports(request.exports);
   if (!exports) return exports.error();
   const Result<void> checked = check_outputs(request, *exports);
@@ -78,7 +78,7 @@ Result<int> replay_journal(const Request& request) {
 }  // namespace
 
 Action set_up_replay(CLI::App& app) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ReplayRequest>();
   app.add_option("journal", request->journal, "a journal; - is standard input")->required();
   app.add_option("-o,--output", request->output, "write the patch set; - is standard output");
   app.add_option("--export", request->exports, "FORMAT=FILE, once for each; see patchlab help formats")

@@ -9,7 +9,7 @@
 namespace patchlab {
 namespace {
 
-struct Request {
+struct SimulateRequest {
   std::string scene;
   std::uint64_t seed = 1;
   std::string noise;
@@ -17,7 +17,7 @@ struct Request {
   std::string truth;
 };
 
-Result<int> simulate_scene(const Request& request) {
+Result<int> simulate_scene(const SimulateRequest& request) {
   const Result<void> checked = Outputs::check({request.output, request.truth});
   if (!checked) return checked.error();
   const Result<Bytes> bytes = read_file(request.scene);
@@ -40,7 +40,7 @@ Result<int> simulate_scene(const Request& request) {
 }  // namespace
 
 Action set_up_simulate(CLI::App& app) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<SimulateRequest>();
   app.add_option("scene", request->scene, "a scene in JSON; - is standard input")->required();
   app.add_option("--seed", request->seed, "of the noise: the same seed gives the same bytes");
   app.add_option("--noise", request->noise, "a noise model instead of the scene's, see patchlab help noise");

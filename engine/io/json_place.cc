@@ -58,7 +58,7 @@ std::vector<JsonPlace> JsonPlace::items() const {
   for (const json& item : *value_) {
     JsonPlace place = *this;
     place.value_ = &item;
-    place.path_ += "[" + std::to_string(places.size()) + "]";
+    place.path_.append("[").append(std::to_string(places.size())).append("]");
     places.push_back(std::move(place));
   }
   return places;

@@ -29,11 +29,11 @@ std::array<double, 4> quaternion_xyzw(const Vector3d& r) {
 
 ordered_json pose_json(const Patch& patch) {
   const Pose pose = world_from_patch(patch);
-  ordered_json json;
-  json["position"] = vector_json(pose.t);
-  json["quaternion_xyzw"] = quaternion_xyzw(pose.r);
-  if (patch.covariance_local) json["covariance_ros"] = matrix_json(ros_fixed_axes_covariance(patch));
-  return json;
+  ordered_json object;
+  object["position"] = vector_json(pose.t);
+  object["quaternion_xyzw"] = quaternion_xyzw(pose.r);
+  if (patch.covariance_local) object["covariance_ros"] = matrix_json(ros_fixed_axes_covariance(patch));
+  return object;
 }
 
 const PatchTypeRow* type_from_json(const JsonPlace& place) {

@@ -191,7 +191,7 @@ struct EncodingRow {
   std::string_view name;
   Result<Body> (*read)(const Source& source);
 };
-constexpr EncodingRow encodings[] = {
+constexpr EncodingRow encoding_rows[] = {
     {"ascii", read_ascii}, {"binary", read_binary}, {"binary_compressed", read_compressed}};
 
 }  // namespace
@@ -200,7 +200,7 @@ Result<Scan> read_pcd(std::string_view bytes, const std::string& name, const Rea
   const Result<PcdHeader> header = parse_pcd_header(bytes, name);
   if (!header) return header.error();
   Scan scan = scan_of(*header, name);
-  const auto* const encoding = std::ranges::find(encodings, header->encoding, &EncodingRow::name);
+  const auto* const encoding = std::ranges::find(encoding_rows, header->encoding, &EncodingRow::name);
   const Result<Body> body =
       encoding->read({bytes.substr(header->data_begin), *header, name, options, scan.notices});
   if (!body) return body.error();

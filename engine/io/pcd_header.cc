@@ -12,8 +12,8 @@
 namespace patchlab {
 namespace {
 
-constexpr std::size_t longest_header = 64 << 10;
-constexpr std::size_t longest_line = 4 << 10;
+constexpr std::size_t longest_pcd_header = 64 << 10;
+constexpr std::size_t longest_pcd_line = 4 << 10;
 constexpr std::size_t largest_point = 4 << 10;  // bytes
 constexpr double quaternion_tolerance = 1e-3;
 
@@ -23,18 +23,18 @@ struct Entry {
   std::size_t line = 0;  // 0: the header has no such entry
 };
 
-struct TypeRow {
+struct PcdType {
   std::string_view letter, size;
   Scalar type;
 };
-constexpr TypeRow types[] = {
+constexpr PcdType pcd_types[] = {
     {"I", "1", Scalar::int8},    {"U", "1", Scalar::uint8},  {"I", "2", Scalar::int16},
     {"U", "2", Scalar::uint16},  {"I", "4", Scalar::int32},  {"U", "4", Scalar::uint32},
     {"I", "8", Scalar::int64},   {"U", "8", Scalar::uint64}, {"F", "4", Scalar::float32},
     {"F", "8", Scalar::float64},
 };
 
-constexpr std::string_view encodings[] = {"ascii", "binary", "binary_compressed"};
+constexpr std::string_view pcd_encodings[] = {"ascii", "binary", "binary_compressed"};
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -85,7 +85,7 @@ Result<void> HeaderParser::collect_entries() {
   LineReader lines(bytes_);
   while (const auto line = lines.next()) {
     const std::size_t used = bytes_.size() - lines.rest().size();
-    if (line->size() > longest_line || used > longest_header) {
+    if (line->size() > longest_pcd_line || used > longest_pcd_header) {
       return unreadable_line(name_, lines.number(),
                              "the PCD header is too long; it must stay below 64 KB, a line below 4 KB.");
     }
@@ -128,7 +128,7 @@ Result<void> HeaderParser::take_data(std::string_view line, const LineReader& li
   header_.data_begin = bytes_.size() - lines.rest().size();
   header_.data_line = lines.number() + 1;
   header_.encoding = lower(word);
-  if (std::ranges::count(encodings, header_.encoding) == 1 && line.empty()) return {};
+  if (std::ranges::count(pcd_encodings, header_.encoding) == 1 && line.empty()) return {};
   if (!lower(word).starts_with("ascii")) {
     return unreadable_line(name_, lines.number(),
                            "DATA must be ascii, binary or binary_compressed, not " +
@@ -166,8 +166,8 @@ Result<void> HeaderParser::parse_fields() {
   for (std::size_t i = 0; i < fields_.words.size(); ++i) {
     const std::string_view field = fields_.words[i], letter = types_.words[i], size = sizes_.words[i];
     const auto* const row = std::ranges::find_if(
-        types, [&](const TypeRow& type) { return type.letter == letter && type.size == size; });
-    if (row == std::end(types)) {
+        pcd_types, [&](const PcdType& type) { return type.letter == letter && type.size == size; });
+    if (row == std::end(pcd_types)) {
       return wrong(types_, "field " + shown(field) + " has TYPE " + shown(letter) + " and SIZE " +
                                shown(size) + "; known are I and U of 1, 2, 4 or 8 bytes and F of 4 or 8.");
     }

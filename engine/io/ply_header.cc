@@ -9,14 +9,14 @@
 namespace patchlab {
 namespace {
 
-constexpr std::size_t longest_header = 64 << 10;
-constexpr std::size_t longest_line = 4 << 10;
+constexpr std::size_t longest_ply_header = 64 << 10;
+constexpr std::size_t longest_ply_line = 4 << 10;
 
-struct TypeRow {
+struct PlyType {
   std::string_view name;
   Scalar type;
 };
-constexpr TypeRow types[] = {
+constexpr PlyType ply_types[] = {
     {"char", Scalar::int8},       {"int8", Scalar::int8},       {"uchar", Scalar::uint8},
     {"uint8", Scalar::uint8},     {"short", Scalar::int16},     {"int16", Scalar::int16},
     {"ushort", Scalar::uint16},   {"uint16", Scalar::uint16},   {"int", Scalar::int32},
@@ -24,11 +24,11 @@ constexpr TypeRow types[] = {
     {"float", Scalar::float32},   {"float32", Scalar::float32}, {"double", Scalar::float64},
     {"float64", Scalar::float64},
 };
-constexpr std::string_view encodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+constexpr std::string_view ply_encodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
 
 std::optional<Scalar> type_named(std::string_view name) {
-  const auto* const row = std::ranges::find(types, name, &TypeRow::name);
-  if (row == std::end(types)) return std::nullopt;
+  const auto* const row = std::ranges::find(ply_types, name, &PlyType::name);
+  if (row == std::end(ply_types)) return std::nullopt;
   return row->type;
 }
 
@@ -42,7 +42,7 @@ Words words_of(std::string_view line) {
 
 // What a line does to the header; an error is the rest of a sentence about the line, empty where all is well.
 std::string take_format(const Words& words, PlyHeader& header) {
-  if (words.size() != 3 || words[2] != "1.0" || std::ranges::count(encodings, words[1]) != 1) {
+  if (words.size() != 3 || words[2] != "1.0" || std::ranges::count(ply_encodings, words[1]) != 1) {
     return "the format must be ascii, binary_little_endian or binary_big_endian, of version 1.0.";
   }
   if (!header.encoding.empty()) return "the format is given twice.";
@@ -119,7 +119,7 @@ Result<PlyHeader> parse_ply_header(std::string_view bytes, const std::string& na
   LineReader lines(bytes);
   while (const auto line = lines.next()) {
     header.data_begin = bytes.size() - lines.rest().size();
-    if (line->size() > longest_line || header.data_begin > longest_header) {
+    if (line->size() > longest_ply_line || header.data_begin > longest_ply_header) {
       return unreadable_line(name, lines.number(),
                              "the PLY header is too long; it must stay below 64 KB, a line below 4 KB.");
     }

@@ -10,7 +10,7 @@
 namespace patchlab {
 namespace {
 
-constexpr std::size_t lines_between_progress = 1 << 16;
+constexpr std::size_t rows_between_progress = 1 << 16;
 constexpr char blank = ' ';  // as a separator: any number of spaces and tabs
 
 char separator_of(std::string_view header) {
@@ -112,7 +112,7 @@ Result<void> parse_rows(LineReader& lines, const Scan& scan, const ReadOptions& 
     if (trimmed(*line).empty()) continue;
     split(*line, table.separator, cells);
     if (const auto parsed = parse_row(cells, lines.number(), scan.file, table); !parsed) return parsed;
-    if (lines.number() % lines_between_progress != 0) continue;
+    if (lines.number() % rows_between_progress != 0) continue;
     if (!keep_going(options.progress, 1.0 - static_cast<double>(lines.rest().size()) / all)) {
       return Error{ErrorCode::cancelled, scan.file + ": reading was cancelled."};
     }

@@ -7,7 +7,7 @@
 namespace patchlab {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Integral over the ellipse with radii d of sqrt(1 + (kappa_x x)^2 + (kappa_y y)^2): the radial integral in
 // closed form, the periodic one by the trapezoidal rule, which converges exponentially.

@@ -8,7 +8,7 @@
 namespace patchlab {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 bool round(const Boundary& boundary) {
   return boundary.type == BoundaryType::ellipse || boundary.type == BoundaryType::circle;

@@ -7,7 +7,7 @@
 namespace patchlab {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double slack = 1e-12;  // relative, on input (errata section 5)
 
 // The reasons below are sentences' ends, "The sphere patch with a circle boundary ...", or empty.

@@ -8,7 +8,7 @@
 namespace patchlab {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // The swing of a rotation: h and g are the sine and cosine of theta_xy / 2, r_xy = theta_xy m.
 struct Swing {

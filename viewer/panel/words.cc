@@ -11,7 +11,7 @@ struct SurfaceWords {
   const char* words;
   const char* brief;
 };
-constexpr SurfaceWords kSurfaces[] = {
+constexpr SurfaceWords kSurfaceWords[] = {
     {SurfaceType::elliptic_paraboloid, "elliptic paraboloid", "ell. paraboloid"},
     {SurfaceType::hyperbolic_paraboloid, "hyperbolic paraboloid", "hyp. paraboloid"},
     {SurfaceType::cylindric_paraboloid, "cylindric paraboloid", "cyl. paraboloid"},
@@ -22,7 +22,7 @@ constexpr SurfaceWords kSurfaces[] = {
 };
 
 const SurfaceWords& words_of(SurfaceType surface) {
-  return *std::find_if(std::begin(kSurfaces), std::end(kSurfaces),
+  return *std::find_if(std::begin(kSurfaceWords), std::end(kSurfaceWords),
                        [surface](const SurfaceWords& row) { return row.surface == surface; });
 }
 

@@ -12,7 +12,7 @@ namespace {
 using test::Band;
 using test::BatteryRow;
 
-constexpr double confidence = 0.99;
+constexpr double shade_confidence = 0.99;
 
 struct Method {
   std::string_view label, fill;
@@ -70,7 +70,7 @@ void draw_probability_band(Svg& svg, const Panel& panel, int trials) {
   for (int i = 0; i <= 100; ++i) {
     const double p = 0.01 * i;
     const Band band =
-        i % 100 == 0 ? Band{p * trials, p * trials} : test::binomial_band(trials, p, 1.0 - confidence);
+        i % 100 == 0 ? Band{p * trials, p * trials} : test::binomial_band(trials, p, 1.0 - shade_confidence);
     low.push_back({panel.x(p), panel.y(band.low / trials)});
     outline.push_back({panel.x(p), panel.y(band.high / trials)});
   }
@@ -131,7 +131,7 @@ struct CoverageOf {
 void draw_coverage(Svg& svg, const Study& study, const CoverageOf& what, const Scale& x, double top) {
   const int trials = study.settings.trials;
   const double bottom = top + row_pitch * static_cast<double>(study.battery.calibrated.size());
-  const Band band = test::binomial_band(trials, 0.95, 1.0 - confidence);
+  const Band band = test::binomial_band(trials, 0.95, 1.0 - shade_confidence);
   svg.box({x(band.low / trials), top}, x(band.high / trials) - x(band.low / trials), bottom - top,
           colour::band);
   for (int tick = 0; tick <= 100; tick += 20) {
@@ -180,7 +180,7 @@ void draw_starts(Svg& svg, const Study& study, const Panel& panel, std::string_v
                  int StartCell::*hits) {
   std::vector<Point> curve;
   for (const StartCell& cell : study.starts) {
-    const Band band = test::share_interval(cell.*hits, cell.trials, confidence);
+    const Band band = test::share_interval(cell.*hits, cell.trials, shade_confidence);
     const double x = panel.x(cell.degrees), y = panel.y(static_cast<double>(cell.*hits) / cell.trials);
     svg.line({x, panel.y(band.low)}, {x, panel.y(band.high)}, stroke, 1.5);
     svg.dot({x, y}, 4.0, stroke);

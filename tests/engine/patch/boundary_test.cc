@@ -11,7 +11,7 @@
 namespace patchlab::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Boundary bound(BoundaryType type, std::initializer_list<double> d) {
   Boundary boundary{type, BoundaryVector(static_cast<Eigen::Index>(d.size()))};

@@ -14,7 +14,7 @@
 namespace patchlab::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 const std::vector<Vector3d> surfaces = {{3, 5, 0}, {-3, -5, 0}, {-3, 5, 0},   {0, 4, 0}, {4, 4, 0},
                                         {0, 0, 0}, {4, 4, 4},   {-4, -4, -4}, {0, 4, 4}, {0, -4, -4}};

@@ -14,7 +14,7 @@
 namespace patchlab::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 class PatchCovariance : public testing::TestWithParam<PatchCase> {};
 INSTANTIATE_TEST_SUITE_P(Table1, PatchCovariance, testing::ValuesIn(all_cases()), case_name);

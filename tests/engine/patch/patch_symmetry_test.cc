@@ -12,7 +12,7 @@
 namespace patchlab::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 bool swappable(const PatchTypeRow& type) { return !type.revolute() && type.curvature_size != 1; }
 

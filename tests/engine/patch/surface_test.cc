@@ -13,7 +13,7 @@ namespace patchlab::test {
 namespace {
 
 // k3 of every surface of Table I, both signs.
-const std::vector<Vector3d> surfaces = {{3, 5, 0},    {-3, -5, 0}, {-3, 5, 0},  {3, -5, 0}, {0, 4, 0},
+const std::vector<Vector3d> both_sided_surfaces = {{3, 5, 0},    {-3, -5, 0}, {-3, 5, 0},  {3, -5, 0}, {0, 4, 0},
                                         {0, -4, 0},   {4, 4, 0},   {-4, -4, 0}, {0, 0, 0},  {4, 4, 4},
                                         {-4, -4, -4}, {0, 4, 4},   {0, -4, -4}};
 
@@ -27,7 +27,7 @@ double exact_height(double kappa, double rho) {
 
 TEST(Surface, ExplicitPointsSatisfyTheImplicitForm) {
   SeededRandom random;
-  for (const Vector3d& k3 : surfaces) {
+  for (const Vector3d& k3 : both_sided_surfaces) {
     for (int i = 0; i < 20; ++i) EXPECT_NEAR(implicit(surface_point(random_u(random), k3), k3), 0.0, 1e-16);
   }
 }
@@ -51,7 +51,7 @@ TEST(Surface, HeightAtTheRimAndWithoutCurvatureIsFinite) {
 
 TEST(Surface, GradientMatchesDifferences) {
   SeededRandom random;
-  for (const Vector3d& k3 : surfaces) {
+  for (const Vector3d& k3 : both_sided_surfaces) {
     const auto f = [&](const VectorXd& q) -> VectorXd {
       return VectorXd::Constant(1, implicit(Vector3d(q), k3));
     };
@@ -62,7 +62,7 @@ TEST(Surface, GradientMatchesDifferences) {
 
 TEST(Surface, OutwardNormalIsZAtTheApexAndPointsToNegativeF) {
   SeededRandom random;
-  for (const Vector3d& k3 : surfaces) {
+  for (const Vector3d& k3 : both_sided_surfaces) {
     EXPECT_EQ(outward_normal(Vector3d::Zero(), k3), Vector3d::UnitZ());
     const Vector3d q = surface_point(random_u(random), k3);
     EXPECT_NEAR(outward_normal(q, k3).norm(), 1.0, 1e-15);
@@ -79,7 +79,7 @@ TEST(Surface, PositiveCurvatureBendsTowardsZ) {
 
 TEST(Surface, HeightDerivativesMatchDifferences) {
   SeededRandom random;
-  for (const Vector3d& k3 : surfaces) {
+  for (const Vector3d& k3 : both_sided_surfaces) {
     const Vector2d u = random_u(random);
     const auto of_u = [&](const VectorXd& x) -> VectorXd {
       return VectorXd::Constant(1, height(Vector2d(x), k3));
@@ -94,7 +94,7 @@ TEST(Surface, HeightDerivativesMatchDifferences) {
 
 TEST(Surface, DerivativesInTheWorldFrameMatchDifferences) {
   SeededRandom random;
-  for (const Vector3d& k3 : surfaces) {
+  for (const Vector3d& k3 : both_sided_surfaces) {
     for (const double length : {0.0, 1e-8, 1.0, std::numbers::pi}) {
       const Pose pose = {length * random.unit3(), random.normal3()};
       const Vector3d q = apply(pose, 0.2 * random.normal3());
@@ -129,7 +129,7 @@ TEST(Surface, ModelledSheetIsTheNearHalfOfSpheresAndCylinders) {
 TEST(RayHits, AreOnTheSurfaceInOrder) {
   SeededRandom random;
   int twice = 0;
-  for (const Vector3d& k3 : surfaces) {
+  for (const Vector3d& k3 : both_sided_surfaces) {
     for (int i = 0; i < 50; ++i) {
       const Vector3d target = surface_point(random_u(random), k3), origin = target + 0.5 * random.normal3();
       const Vector3d direction = target - origin;

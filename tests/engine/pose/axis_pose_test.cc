@@ -14,7 +14,7 @@
 namespace patchlab::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // How far theta_xy may be trusted: errata section 9.
 double growth_near_pi(const Vector2d& r_xy) { return std::max(1.0, pi / std::max(pi - r_xy.norm(), 1e-300)); }

@@ -13,7 +13,7 @@
 namespace patchlab::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Pose pose_of(const VectorXd& v) { return {v.head<3>(), v.tail<3>()}; }
 

@@ -14,7 +14,7 @@
 namespace patchlab::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Matrix3d rounded(const ExactMatrix3& exact) { return exact.cast<double>(); }
 
