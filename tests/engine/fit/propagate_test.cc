@@ -64,7 +64,13 @@ TEST_P(ResidualJacobian, AgreesWithDifferencesInChartAndPoint) {
 INSTANTIATE_TEST_SUITE_P(AllModels, ResidualJacobian,
                          testing::Values(ModelKind::plane, ModelKind::sphere, ModelKind::circular_cylinder,
                                          ModelKind::circular_paraboloid, ModelKind::cylindric_paraboloid,
-                                         ModelKind::paraboloid));
+                                         ModelKind::paraboloid),
+                         [](const auto& model) {
+                           constexpr const char* names[] = {"plane", "sphere", "circular_cylinder",
+                                                            "circular_paraboloid", "cylindric_paraboloid",
+                                                            "paraboloid"};
+                           return names[model.index];
+                         });
 
 // The whole pipeline refitted with each coordinate of some points moved by a little: how the patch moves,
 // against what the covariance of noise alone (no sampling, no prior) says of it.
@@ -110,7 +116,8 @@ TEST_P(Refit, CovarianceFollowsFromMovingEveryPoint) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Planes, Refit, testing::Values(4, 5, 6));
+INSTANTIATE_TEST_SUITE_P(Planes, Refit, testing::Values(4, 5, 6),
+                         [](const auto& row) { return "Type" + std::to_string(row.param); });
 
 TEST(SoftEdge, QuadOfEdgesHasTheDerivativesOfDifferences) {
   SeededRandom random;

@@ -10,7 +10,13 @@ INSTANTIATE_TEST_SUITE_P(SizesAndScales, LayoutTest,
                          testing::Combine(testing::Values(std::pair{640.f, 480.f}, std::pair{1280.f, 800.f},
                                                           std::pair{1440.f, 900.f},
                                                           std::pair{3840.f, 2160.f}),
-                                          testing::Values(1.0f, 1.25f, 1.5f, 2.0f)));
+                                          testing::Values(1.0f, 1.25f, 1.5f, 2.0f)),
+                         [](const auto& window) {
+                           const auto [size, scale] = window.param;
+                           return std::to_string(static_cast<int>(size.first)) + "x" +
+                                  std::to_string(static_cast<int>(size.second)) + "_at_" +
+                                  std::to_string(static_cast<int>(100 * scale)) + "_percent";
+                         });
 
 TEST_P(LayoutTest, ThePanelsTileTheWindow) {
   const auto [size, scale] = GetParam();

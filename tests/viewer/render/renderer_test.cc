@@ -33,8 +33,9 @@ class RendererTest : public testing::TestWithParam<int> {
   Scene scene;
   static inline std::unique_ptr<Studio> studio_;
 };
-INSTANTIATE_TEST_SUITE_P(AsThePlatformThinksBest, RendererTest, testing::Values(-1));
-INSTANTIATE_TEST_SUITE_P(Multisampled, RendererTest, testing::Values(4));
+const auto samples_name = [](const auto& samples) { return samples.param < 0 ? "default" : "four"; };
+INSTANTIATE_TEST_SUITE_P(AsThePlatformThinksBest, RendererTest, testing::Values(-1), samples_name);
+INSTANTIATE_TEST_SUITE_P(Multisampled, RendererTest, testing::Values(4), samples_name);
 
 PointsItem points(std::vector<Vector3f> positions, Rgba8 colour, float size = 6.0f) {
   std::vector<Rgba8> colours(positions.size(), colour);
