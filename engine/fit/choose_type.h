@@ -1,4 +1,4 @@
-// Step 3 by evidence: which surface the points ask for, by BIC over refitted models (fitting.md section 2.5).
+// Step 3 by evidence: which surface the points ask for, by BIC over refitted models (method M5).
 #pragma once
 
 #include <vector>

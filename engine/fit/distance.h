@@ -1,4 +1,4 @@
-// The residual of one sample and its derivatives in the local chart (fitting.md section 1.1).
+// The residual of one sample and its derivatives in the local chart (method M2).
 //
 // Exact (calibrated): F is the signed Mahalanobis distance to the surface, by the foot point x:
 //   F = g(x)'(q - x) / sqrt(g' S g),  F_p = f_p(x) / sqrt(g' S g),  F_q = g(x) / sqrt(g' S g)  (envelope

@@ -41,7 +41,7 @@ void carry_along(Placed& placed, const Ingredients& from) {
   placed.c = sum(sum(placed.c, cross(from.w, placed.c)), from.t);
 }
 
-// d (d, k, w or tilt, t) / d (everything): a new frame from unit vectors (fitting.md section 1.3).
+// d (d, k, w or tilt, t) / d (everything): a new frame from unit vectors (method M8).
 LocalRows J_local(const Placed& placed, const PatchPlan& plan) {
   const PatchTypeRow& type = *plan.type;
   LocalRows J = LocalRows::Zero(type.size(), joint_size);

@@ -2,7 +2,7 @@
 // covariance.
 //
 // All of it is one function of the surface and of the moments of its foot points (engine/fit/place.h),
-// differentiated automatically; the covariance follows by the chain rule (fitting.md section 1.3).
+// differentiated automatically; the covariance follows by the chain rule (method M8).
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ BoundaryScale paper_scale(double containment);
 
 // Where z_l of a sphere or circular cylinder comes from.
 enum class Apex {
-  over_centroid,  // it passes through the centroid (fitting.md section 3, step 6)
+  over_centroid,  // it passes through the centroid (method M6)
   by_plane,       // the normal of step 1's plane, as printed
 };
 

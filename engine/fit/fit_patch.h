@@ -1,6 +1,6 @@
 // Section IV: fit a bounded patch to points with covariances, and the covariance of the result.
 //
-// Two methods. `calibrated` (default) is the method of fitting.md section 3, whose covariance is proven by
+// Two methods. `calibrated` (default) is the method of engine/README.md, whose covariance is proven by
 // Monte Carlo; `paper` is the nine steps of the paper as printed, with the errata that make them computable.
 #pragma once
 
@@ -42,7 +42,7 @@ std::optional<BoundaryRequest> boundary_request_from_name(std::string_view name)
 std::optional<FitMethod> fit_method_from_name(std::string_view name);
 std::optional<BoundsMethod> bounds_method_from_name(std::string_view name);
 
-// Limits of the validation (research/mission.md section 4 for their source).
+// Limits of the validation; the last three are those of the authors' own patch finder, for patches of 5 cm.
 struct ValidationLimits {
   double p_value = 1e-3;          // chi-square below it: the noise model or the type is wrong
   double residual_rms = 0.01;     // m

@@ -142,7 +142,7 @@ FootPoints foot_points(const Samples& samples, const SurfaceFit& fit) {
       const Vector3d ray = from_camera.normalized();
       const double depth = axis->dot(from_camera), cos_psi = std::abs(axis->dot(ray));
       const double facing = std::max(std::abs(n.dot(fit.state.R.transpose() * ray)), least_cosine);
-      weight *= depth * depth * cos_psi * std::abs(n.z()) / facing;  // fitting.md section 7
+      weight *= depth * depth * cos_psi * std::abs(n.z()) / facing;  // method M3
     }
     feet.x.push_back(r.x);
     feet.weight.push_back(std::max(weight, 0.0));
@@ -180,7 +180,7 @@ VertexStart vertex_start(const Samples& samples, const SurfaceFit& fixed) {
   start.state.c = fixed.state.c + fixed.state.R * centre;
   start.state.R = turned_to(fixed.state.R, fixed.state.R * outward_normal(centre, kappa));
   const double share =
-      0.25 / static_cast<double>(samples.size()) + 0.05 * 0.05;  // fitting.md section 3, step 4
+      0.25 / static_cast<double>(samples.size()) + 0.05 * 0.05;  // method M4
   start.prior = {start.state.c, start.state.R.leftCols<2>(), size * std::sqrt(share), size};
   return start;
 }

@@ -13,7 +13,7 @@
 namespace patchlab {
 
 // The vertex of a paraboloid is where its patch is centred, by definition: c ~ N(centre, sigma^2) along each
-// tangent direction (fitting.md section 3, step 4; without it eight parameters meet six numbers).
+// tangent direction (method M4; without it eight parameters meet six numbers).
 struct VertexPrior {
   Vector3d centre;                       // m, on the surface over the centroid of the points
   Eigen::Matrix<double, 3, 2> tangents;  // unit columns
@@ -51,7 +51,7 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model,
 // Tukey's weight of a residual in standard deviations.
 double tukey_weight(double F);
 
-// Foot points and pixel-footprint weights of all samples on a fitted surface (fitting.md section 7).
+// Foot points and pixel-footprint weights of all samples on a fitted surface (method M3).
 struct FootPoints {
   std::vector<Vector3d> x;     // local axes, m
   std::vector<double> weight;  // sum 1; zero for points of robust weight zero
@@ -65,10 +65,10 @@ struct VertexStart {
   VertexPrior prior;
   SurfaceState state;  // frame turned to the normal at the prior's centre
 };
-// From a fit of the model with its vertex held over the mean (fitting.md section 7).
+// From a fit of the model with its vertex held over the mean (method M4).
 VertexStart vertex_start(const Samples& samples, const SurfaceFit& fixed);
 
-// Covariances of a sensor model re-evaluated at the foot points (finding 12). False where they are constants.
+// Covariances of a sensor model re-evaluated at the foot points (method M11). False where they are constants.
 bool reevaluate_noise(Samples& samples, const SurfaceFit& fit);
 
 }  // namespace patchlab

@@ -1,5 +1,5 @@
-// Where the fits start: the plane of step 1 and a quadratic height field over it (fitting.md section 3, steps
-// 1 and 2). Points count by their robust weight. Results are about the samples' origin.
+// Where the fits start: the plane of step 1 and a quadratic height field over it (method M1).
+// Points count by their robust weight. Results are about the samples' origin.
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ Quadric quadric_through(const Samples& samples, const SurfaceState& frame,
 double quadric_residual(const Quadric& quadric, const Samples& samples, std::size_t i);
 
 // The states from which a model's fit is tried; the lower exact cost is kept. Both axes for the cylindric
-// ones (fitting.md section 2.4), the algebraic sphere beside the height field for spheres.
+// ones (method M1), the algebraic sphere beside the height field for spheres.
 std::vector<SurfaceState> starts(const Samples& samples, const SurfaceModel& model,
                                  const SurfaceState& quadratic);
 

@@ -55,7 +55,7 @@ PlaneColumns plane_columns(const SurfaceFit* plane, const Samples& samples, std:
   return columns;
 }
 
-// J_prior' J_prior (fitting.md section 1.4): two columns of unit variance.
+// J_prior' J_prior (method M9): two columns of unit variance.
 ChartMatrix prior_information(const SurfaceFit& fit) {
   ChartMatrix information = ChartMatrix::Zero();
   const Matrix32 tangents = fit.state.R.transpose() * fit.prior->tangents / fit.prior->sigma;

@@ -27,18 +27,18 @@ inline constexpr int joint_size = moments_at + moments_size;
 using JointMatrix = Eigen::Matrix<double, joint_size, joint_size>;
 
 enum class Projection {
-  foot_points,  // along the covariance to the surface (fitting.md section 4, item 9)
+  foot_points,  // along the covariance to the surface (errata F9)
   plain,        // Eq. (16): the measured points, as the paper has it
 };
 
 struct JointOptions {
   Distance distance = Distance::exact;
   Projection projection = Projection::foot_points;
-  bool sampling = true;               // which points happened to be sampled (fitting.md section 1.4)
+  bool sampling = true;               // which points happened to be sampled (method M9)
   const SurfaceFit* plane = nullptr;  // of step 1, where its normal counts
 };
 
-// The covariance of all these, as D D' over whitened inputs (fitting.md sections 1.2-1.4). With q_i += e_i:
+// The covariance of all these, as D D' over whitened inputs (method M8, M9). With q_i += e_i:
 //   d chart / d e_i   = -A^-1 F_p F_q'
 //   d plane / d e_i   = the same of the plane's fit
 //   d moments / d e_i = w_i Phi_x X_q,i + M d chart / d e_i,   M = sum_i w_i Phi_x X_chart,i

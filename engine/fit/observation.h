@@ -1,4 +1,4 @@
-// What a fit receives: points with their covariances, and how the sensor saw them (fitting.md section 7). It
+// What a fit receives: points with their covariances, and how the sensor saw them. It
 // knows no sensor: a covariance that depends on where the surface is comes as a function.
 #pragma once
 
@@ -13,7 +13,7 @@ struct Observations {
   std::vector<Eigen::Vector3d> points;       // m, in the frame of the points
   std::vector<Eigen::Matrix3d> covariances;  // m^2, of each point as measured
   // The covariance of observation i re-evaluated at a foot point on the surface (m), where a sensor model
-  // makes it; empty where the covariances are constants (fitting.md finding 12).
+  // makes it; empty where the covariances are constants (method M11).
   std::function<Eigen::Matrix3d(std::size_t i, const Eigen::Vector3d& foot)> covariance_at;
 
   // Position of the sensor: normals are turned towards it.

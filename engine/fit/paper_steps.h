@@ -1,4 +1,4 @@
-// Steps 1 to 3 as the paper prints them, with the errata that make them computable (fitting.md section 4):
+// Steps 1 to 3 as the paper prints them, with the errata that make them computable (errata F):
 // for reproduction and comparison. Equations (33)-(36) with the residual at the measured point, starts from
 // kappa = 0, a free vertex for paraboloids, no refit after a curvature is dropped.
 #pragma once

@@ -37,7 +37,7 @@ void complete_frame(Placed& placed) {
   placed.y = cross(placed.z, placed.x);
 }
 
-// fitting.md section 3, step 6: the apex of a sphere or cylinder moves so that z_l passes through the
+// Method M6: the apex of a sphere or cylinder moves so that z_l passes through the
 // centroid; w is from the centroid to the old apex, across the axis for the cylinder. No division by kappa.
 void apex_over_centroid(Placed& placed, const Ingredients& from, const PatchPlan& plan) {
   const Dual& kappa = from.kappa;
@@ -52,7 +52,7 @@ void apex_over_centroid(Placed& placed, const Ingredients& from, const PatchPlan
 }
 
 // Step 2 (ii): z_l from the plane of step 1, the apex moved to c + (z - z')/kappa so that the surface stays
-// (fitting.md section 4, items 2 and 3).
+// (errata F2, F3).
 void apex_by_plane(Placed& placed, const Ingredients& from, const PatchPlan& plan) {
   const Dual3 normal = difference(from.plane_normal, cross(from.w, from.plane_normal));  // in the moving axes
   const Dual3 z = is_cylinder(plan) ? normalised({constant(0.0), normal[1], normal[2]}) : normal;

@@ -88,7 +88,7 @@ Patch quad_of_rectangle(const Patch& rectangle) {
 
 std::optional<PlaneDirection> soft_direction(const Samples& samples, const SurfaceFit& fit,
                                              const FootPoints& feet, const MomentVector& m) {
-  constexpr double alike = 1.2;  // fitting.md section 3, step 7
+  constexpr double alike = 1.2;  // method M7
   const double alpha = m[3] - m[0] * m[0], beta = 2.0 * (m[4] - m[0] * m[1]), phi = m[6] - m[1] * m[1];
   const double difference = std::hypot(beta, alpha - phi);
   if (alpha + phi + difference > alike * alike * (alpha + phi - difference)) return std::nullopt;

@@ -1,4 +1,4 @@
-// A start that a sloppy lasso does not spoil, and the flagging of outliers (fitting.md section 3, step 10).
+// A start that a sloppy lasso does not spoil, and the flagging of outliers (method M12).
 #pragma once
 
 #include <cstdint>

@@ -50,7 +50,7 @@ Spread spread_of(const Samples& samples) {
 }
 
 Result<void> check_spread(const Samples& samples) {
-  constexpr double least_spread = 9.0;  // fitting.md section 5: coincident e1 <= 5.4, collinear e2 <= 3.3
+  constexpr double least_spread = 9.0;  // method M10
   constexpr double least_aspect = 1e-3;
   const Spread spread = spread_of(samples);
   if (spread.extent[0] == 0.0 || spread.against_noise[0] < least_spread) {

@@ -23,7 +23,7 @@ struct Samples {
   }
 };
 
-// Checks of fitting.md section 5: at least `least` points, every covariance finite, symmetric and positive
+// Checks of method M10: at least `least` points, every covariance finite, symmetric and positive
 // semi-definite (named by its row), points that are neither coincident nor collinear within their noise.
 // no_finite_fit otherwise.
 Result<Samples> make_samples(const Observations& observations, std::size_t least);

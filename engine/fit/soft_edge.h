@@ -1,4 +1,4 @@
-// Quadrilaterals and rectangles by maximum likelihood with a soft edge (fitting.md section 3, step 7): points
+// Quadrilaterals and rectangles by maximum likelihood with a soft edge (method M7): points
 // cover the shape evenly and are smeared by sigma, so the likelihood of a shape of area A is
 //   -N ln A + sum_i w_i sum_e ln Phi(distance_ie / sigma),  w_i of sum N.
 //

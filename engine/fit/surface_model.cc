@@ -9,7 +9,7 @@ namespace {
 
 enum Chart { k_1, k_2, w_x, w_y, w_z, t_x, t_y, t_z };
 
-// fitting.md section 1.1: free parameters with the gauge fixed; p_eff of section 2.5.
+// Method M2: free parameters with the gauge fixed; p_eff of M5.
 constexpr std::array<SurfaceModel, 6> models = {{
     {ModelKind::plane, SurfaceType::plane, 0, 3, false, 3, {w_x, w_y, t_z}},
     {ModelKind::sphere, SurfaceType::sphere, 1, 4, false, 4, {k_1, w_x, w_y, t_z}},

@@ -1,5 +1,5 @@
-// An unbounded surface as the fit sees it: a state (k, R, c) and the local chart it is moved in (fitting.md
-// section 1.1).
+// An unbounded surface as the fit sees it: a state (k, R, c) and the local chart it is moved in (method
+// M2).
 //
 // The chart has eight coordinates, in this order everywhere in the fit:
 //   k_1 k_2   curvatures (columns of B of Table I), 1/m: k += dk
@@ -34,8 +34,8 @@ struct SurfaceModel {
   ModelKind kind;
   SurfaceType surface;       // the row of Table I that gives B (elliptic for `paraboloid`)
   int curvatures;            // number of k used
-  int effective_parameters;  // p_eff of BIC: what the points can tell (fitting.md section 2.5)
-  bool vertex_prior;         // t_x, t_y ~ N(centroid, ...): step 4 of fitting.md section 3
+  int effective_parameters;  // p_eff of BIC: what the points can tell (method M5)
+  bool vertex_prior;         // t_x, t_y ~ N(centroid, ...): method M4
   int free_size;
   std::array<int, chart_size> free;  // chart indices, first free_size entries
 

@@ -136,7 +136,7 @@ void warn_few_points(const SurfaceFit& fit, FitReport& report) {
        text("Only %.0f points; below %.0f the covariance is a rough guess.", points, enough)});
 }
 
-// Rows of fitting.md section 5 that concern the curvature and the axis.
+// Those of method M10 that concern the curvature and the axis.
 void warn_curvature(const Samples& samples, const Patch& patch, FitReport& report) {
   const PatchTypeRow& type = *patch.type;
   const auto warn = [&](std::string name, double value, double limit, std::string sentence) {

@@ -19,7 +19,7 @@ struct Problem {
 };
 
 // The point x(lambda) with q - x = lambda S g(x): A (q - x) = lambda S g(q), A = I + 2 lambda S K. The
-// eigenvalues of A are the 1 + 2 lambda mu_j of the whitened problem (fitting.md 1.1), so nothing has to be
+// eigenvalues of A are the 1 + 2 lambda mu_j of the whitened problem (method M2), so nothing has to be
 // whitened and S may be semi-definite.
 struct Stationary {
   bool inside = false;  // every eigenvalue of A is positive: x is the nearest point of its level set of f

@@ -62,7 +62,7 @@ NormalCone normal_cone(const Patch& patch, double probability) {
 double height_sigma(const Patch& patch, const Vector2d& u) {
   const PatchTypeRow& type = *patch.type;
   const Vector3d k = k3(patch), q = surface_point(u, k), g = gradient(q, k);
-  ParameterRow J = ParameterRow::Zero(type.size());  // d f / d (local chart), fitting.md 1.1
+  ParameterRow J = ParameterRow::Zero(type.size());  // d f / d (local chart), method M2
   J.segment(type.curvature_at(), type.curvature_size) = q.cwiseProduct(q).transpose() * type.B;
   J.segment(type.rotation_at(), type.rotation_size) = g.cross(q).head(type.rotation_size).transpose();
   J.tail<3>() = -g.transpose();

@@ -53,7 +53,7 @@ struct RayHits {
 RayHits ray_hits(const Vector3d& origin_patch, const Vector3d& direction_patch, const Vector3d& k3);
 
 // The foot point of q on the whole quadric (both halves of a sphere), the nearest point in the Mahalanobis
-// metric of `cov` (fitting.md section 1.1); with cov = I the Euclidean one. Converged to below 1e-9 m. `cov`
+// metric of `cov` (method M2); with cov = I the Euclidean one. Converged to below 1e-9 m. `cov`
 // may be semi-definite: where it lets q reach no point of the surface, x is q and the distance infinite
 // (signed). Allocates nothing.
 struct FootPoint {

@@ -43,7 +43,7 @@ struct NoiseModel {
 
 // usage error for an unknown name or a number that is not positive and finite.
 Result<NoiseModel> noise_model(std::string_view specification);
-// Which model applies to a scan where none is asked for (DESIGN.md section 4): from_file, kinect1 for
+// Which model applies to a scan where none is asked for: from_file, kinect1 for
 // organised clouds, else isotropic estimated from the scan's local roughness, each marked as assumed except
 // from_file.
 NoiseModel default_noise_model(const Scan& scan);

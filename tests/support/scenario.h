@@ -1,4 +1,4 @@
-// The scenario family of fitting.md: a random patch of any of the ten types seen by a Kinect, N random points
+// The scenario family of the calibration (engine/README.md): a random patch of any of the ten types seen by a Kinect, N random points
 // of it, noisy.
 #pragma once
 
