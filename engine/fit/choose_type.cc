@@ -35,7 +35,7 @@ std::size_t needed(ModelKind kind) {
   return static_cast<std::size_t>(surface_model(kind).effective_parameters) + 1;
 }
 
-std::string words(SurfaceType surface) {
+std::string spoken(SurfaceType surface) {
   std::string text(name(surface));
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
@@ -54,7 +54,7 @@ double curvature_sigma(const SurfaceFit& fit) {
 // Why this candidate is not (or is) what the points ask for, against the best one.
 std::string reason(const SurfaceFit& fit, const SurfaceFit& best, double difference) {
   constexpr double undecided = 6.0;  // BIC difference below which evidence is weak
-  const std::string mine = words(surface_type(fit)), chosen = words(surface_type(best));
+  const std::string mine = spoken(surface_type(fit)), chosen = spoken(surface_type(best));
   if (&fit == &best) return "least chi-square for its number of parameters";
   if (difference < undecided) {
     std::string text = mine + " and " + chosen + " cannot be told apart here";

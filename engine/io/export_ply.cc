@@ -27,12 +27,12 @@ std::string one_line(std::string text) {
   return text;
 }
 
-struct Body {
+struct PlyBody {
   std::string comments, vertices, faces;
   std::uint32_t vertex_count = 0, face_count = 0;
 };
 
-void append_patch(Body& body, const PatchRecord& record, std::uint32_t number) {
+void append_patch(PlyBody& body, const PatchRecord& record, std::uint32_t number) {
   const Patch& patch = record.patch;
   body.comments += "comment patch " + std::to_string(number) + " is " + one_line(record.id) + ": " +
                    std::string(name(patch.type->surface)) + ", " + std::string(name(patch.type->boundary)) +
@@ -56,7 +56,7 @@ void append_patch(Body& body, const PatchRecord& record, std::uint32_t number) {
   body.face_count += static_cast<std::uint32_t>(mesh.n_faces());
 }
 
-std::string header(const Body& body) {
+std::string header(const PlyBody& body) {
   return "ply\nformat binary_little_endian 1.0\n"
          "comment patchlab: bounded curved patches as triangles, counterclockwise seen from outside; metre\n"
          "comment height_sigma: standard deviation of the height along the normal, from the covariance of curvature "
@@ -72,7 +72,7 @@ std::string header(const Body& body) {
 }  // namespace
 
 Result<std::string> write_ply(const PatchSet& set) {
-  Body body;
+  PlyBody body;
   for (std::size_t i = 0; i < set.patches.size(); ++i) {
     const PatchRecord& record = set.patches[i];
     if (const Result<void> valid = validate(record.patch); !valid) {

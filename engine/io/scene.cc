@@ -37,7 +37,7 @@ SceneObject object_from_json(const JsonPlace& unnamed) {
   return object;
 }
 
-void check_heading(const JsonPlace& root) {
+void check_scene_heading(const JsonPlace& root) {
   const JsonPlace format = root["format"], version = root["version"];
   if (format.text() != "patchlab.scene") format.fail("is not \"patchlab.scene\"");
   if (const double number = version.number(); root.ok() && !(number >= 1.0 && number < 2.0)) {
@@ -74,7 +74,7 @@ Result<SceneDescription> read_scene(std::string_view text, const std::string& na
   if (!parsed) return parsed.error();
   std::optional<Error> error;
   const JsonPlace root(*parsed, name, error);
-  check_heading(root);
+  check_scene_heading(root);
   SceneDescription scene;
   scene.camera = camera_from_json(root["camera"]);
   if (const auto noise = root.find("noise")) scene.noise = noise->text();

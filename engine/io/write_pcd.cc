@@ -39,7 +39,7 @@ std::string viewpoint_line(const Viewpoint& viewpoint) {
 }
 
 template <class T>
-void append(std::string& bytes, const T& value) {
+void put(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
@@ -47,9 +47,9 @@ void append(std::string& bytes, const T& value) {
 void append_point(std::string& bytes, const Scan& scan, const Eigen::Vector3f& position) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (scan.origin.isZero(0.0)) {
-      append(bytes, position(axis));
+      put(bytes, position(axis));
     } else {
-      append(bytes, scan.origin(axis) + static_cast<double>(position(axis)));
+      put(bytes, scan.origin(axis) + static_cast<double>(position(axis)));
     }
   }
 }
@@ -78,10 +78,10 @@ std::string write_pcd(const Scan& scan) {
     append_point(bytes, scan, scan.positions[i]);
     if (!scan.colours.empty()) {
       const auto& [red, green, blue] = scan.colours[i];
-      append(bytes, static_cast<std::uint32_t>(red << 16 | green << 8 | blue));
+      put(bytes, static_cast<std::uint32_t>(red << 16 | green << 8 | blue));
     }
-    if (!scan.labels.empty()) append(bytes, scan.labels[i]);
-    if (!scan.covariances.empty()) append(bytes, scan.covariances[i]);
+    if (!scan.labels.empty()) put(bytes, scan.labels[i]);
+    if (!scan.covariances.empty()) put(bytes, scan.covariances[i]);
     if (!scan.viewpoints.empty()) append_point(bytes, scan, scan.viewpoints[i]);
   }
   return bytes;

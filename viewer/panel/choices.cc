@@ -13,16 +13,16 @@ struct Choice {
   Value value;
 };
 
-constexpr Choice<SurfaceRequest> kSurfaces[] = {{Action::fit_automatic, SurfaceRequest::automatic},
+constexpr Choice<SurfaceRequest> kSurfaceChoices[] = {{Action::fit_automatic, SurfaceRequest::automatic},
                                                 {Action::fit_paraboloid, SurfaceRequest::paraboloid},
                                                 {Action::fit_plane, SurfaceRequest::plane},
                                                 {Action::fit_sphere, SurfaceRequest::sphere},
                                                 {Action::fit_cylinder, SurfaceRequest::circular_cylinder}};
-constexpr Choice<SelectMode> kModes[] = {{Action::mode_set, SelectMode::set},
+constexpr Choice<SelectMode> kModeChoices[] = {{Action::mode_set, SelectMode::set},
                                          {Action::mode_add, SelectMode::add},
                                          {Action::mode_subtract, SelectMode::subtract},
                                          {Action::mode_intersect, SelectMode::intersect}};
-constexpr Choice<Tool> kTools[] = {{Action::orbit_tool, Tool::orbit}, {Action::lasso_tool, Tool::lasso}};
+constexpr Choice<Tool> kToolChoices[] = {{Action::orbit_tool, Tool::orbit}, {Action::lasso_tool, Tool::lasso}};
 constexpr Choice<PointColours> kColours[] = {{Action::colour_shading, PointColours::shading},
                                              {Action::colour_photo, PointColours::photo},
                                              {Action::colour_residual, PointColours::residual}};
@@ -51,9 +51,9 @@ bool has_kept_patch(const Document& document, const std::string& draft) {
 
 }  // namespace
 
-std::optional<SurfaceRequest> surface_of(Action action) { return find(kSurfaces, action); }
-std::optional<SelectMode> mode_of(Action action) { return find(kModes, action); }
-std::optional<Tool> tool_of(Action action) { return find(kTools, action); }
+std::optional<SurfaceRequest> surface_of(Action action) { return find(kSurfaceChoices, action); }
+std::optional<SelectMode> mode_of(Action action) { return find(kModeChoices, action); }
+std::optional<Tool> tool_of(Action action) { return find(kToolChoices, action); }
 std::optional<PointColours> colours_of(Action action) { return find(kColours, action); }
 bool Layers::*layer_of(Action action) { return find(kLayers, action).value_or(nullptr); }
 
