@@ -61,16 +61,21 @@ TEST_P(ResidualJacobian, AgreesWithDifferencesInChartAndPoint) {
   }
 }
 
+std::string model_name(const testing::TestParamInfo<ModelKind>& model) {
+  constexpr const char* names[] = {"plane",
+                                   "sphere",
+                                   "circular_cylinder",
+                                   "circular_paraboloid",
+                                   "cylindric_paraboloid",
+                                   "paraboloid"};
+  return names[static_cast<std::size_t>(model.param)];
+}
+
 INSTANTIATE_TEST_SUITE_P(AllModels, ResidualJacobian,
                          testing::Values(ModelKind::plane, ModelKind::sphere, ModelKind::circular_cylinder,
                                          ModelKind::circular_paraboloid, ModelKind::cylindric_paraboloid,
                                          ModelKind::paraboloid),
-                         [](const auto& model) {
-                           constexpr const char* names[] = {"plane", "sphere", "circular_cylinder",
-                                                            "circular_paraboloid", "cylindric_paraboloid",
-                                                            "paraboloid"};
-                           return names[model.index];
-                         });
+                         model_name);
 
 // The whole pipeline refitted with each coordinate of some points moved by a little: how the patch moves,
 // against what the covariance of noise alone (no sampling, no prior) says of it.

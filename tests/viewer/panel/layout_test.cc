@@ -6,17 +6,18 @@ namespace patchlab::viewer {
 namespace {
 
 class LayoutTest : public testing::TestWithParam<std::tuple<std::pair<float, float>, float>> {};
+std::string window_name(const testing::TestParamInfo<LayoutTest::ParamType>& window) {
+  const auto& [size, scale] = window.param;
+  return std::to_string(static_cast<int>(size.first)) + "x" + std::to_string(static_cast<int>(size.second)) +
+         "_at_" + std::to_string(static_cast<int>(100 * scale)) + "_percent";
+}
+
 INSTANTIATE_TEST_SUITE_P(SizesAndScales, LayoutTest,
                          testing::Combine(testing::Values(std::pair{640.f, 480.f}, std::pair{1280.f, 800.f},
                                                           std::pair{1440.f, 900.f},
                                                           std::pair{3840.f, 2160.f}),
                                           testing::Values(1.0f, 1.25f, 1.5f, 2.0f)),
-                         [](const auto& window) {
-                           const auto [size, scale] = window.param;
-                           return std::to_string(static_cast<int>(size.first)) + "x" +
-                                  std::to_string(static_cast<int>(size.second)) + "_at_" +
-                                  std::to_string(static_cast<int>(100 * scale)) + "_percent";
-                         });
+                         window_name);
 
 TEST_P(LayoutTest, ThePanelsTileTheWindow) {
   const auto [size, scale] = GetParam();
