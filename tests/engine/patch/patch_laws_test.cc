@@ -153,7 +153,7 @@ TEST(SurfaceArea, OfHemisphereHalfCylinderAndFlatPatchesIsThatOfTheTextbook) {
     return make_patch(type, bound, VectorXd::Constant(type.curvature_size, kappa), Matrix3d::Identity(),
                       Vector3d::Zero());
   };
-  constexpr double pi = std::numbers::pi;
+  using std::numbers::pi;
   EXPECT_NEAR(surface_area(made(SurfaceType::sphere, 0.1, 0, -10)), 2 * pi * 0.01, 1e-9);
   EXPECT_NEAR(surface_area(made(SurfaceType::circular_cylinder, 0.3, 0.1, 10)), 0.6 * pi * 0.1, 1e-9);
   EXPECT_NEAR(surface_area(made(SurfaceType::circular_cylinder, 0.3, 0.1, 0)), 0.12, 1e-15);

@@ -17,7 +17,7 @@ const std::vector<Vector3d> both_sided_surfaces = {{3, 5, 0},    {-3, -5, 0}, {-
                                         {0, -4, 0},   {4, 4, 0},   {-4, -4, 0}, {0, 0, 0},  {4, 4, 4},
                                         {-4, -4, -4}, {0, 4, 4},   {0, -4, -4}};
 
-Vector2d random_u(Random& random) { return {random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15)}; }
+Vector2d near_u(Random& random) { return {random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15)}; }
 
 // Eqs. (23), (27) as printed, with 60 digits.
 double exact_height(double kappa, double rho) {
@@ -28,7 +28,7 @@ double exact_height(double kappa, double rho) {
 TEST(Surface, ExplicitPointsSatisfyTheImplicitForm) {
   SeededRandom random;
   for (const Vector3d& k3 : both_sided_surfaces) {
-    for (int i = 0; i < 20; ++i) EXPECT_NEAR(implicit(surface_point(random_u(random), k3), k3), 0.0, 1e-16);
+    for (int i = 0; i < 20; ++i) EXPECT_NEAR(implicit(surface_point(near_u(random), k3), k3), 0.0, 1e-16);
   }
 }
 
@@ -64,7 +64,7 @@ TEST(Surface, OutwardNormalIsZAtTheApexAndPointsToNegativeF) {
   SeededRandom random;
   for (const Vector3d& k3 : both_sided_surfaces) {
     EXPECT_EQ(outward_normal(Vector3d::Zero(), k3), Vector3d::UnitZ());
-    const Vector3d q = surface_point(random_u(random), k3);
+    const Vector3d q = surface_point(near_u(random), k3);
     EXPECT_NEAR(outward_normal(q, k3).norm(), 1.0, 1e-15);
     EXPECT_LT(implicit(q + 1e-3 * outward_normal(q, k3), k3), 0.0);
   }
@@ -80,7 +80,7 @@ TEST(Surface, PositiveCurvatureBendsTowardsZ) {
 TEST(Surface, HeightDerivativesMatchDifferences) {
   SeededRandom random;
   for (const Vector3d& k3 : both_sided_surfaces) {
-    const Vector2d u = random_u(random);
+    const Vector2d u = near_u(random);
     const auto of_u = [&](const VectorXd& x) -> VectorXd {
       return VectorXd::Constant(1, height(Vector2d(x), k3));
     };
@@ -131,7 +131,7 @@ TEST(RayHits, AreOnTheSurfaceInOrder) {
   int twice = 0;
   for (const Vector3d& k3 : both_sided_surfaces) {
     for (int i = 0; i < 50; ++i) {
-      const Vector3d target = surface_point(random_u(random), k3), origin = target + 0.5 * random.normal3();
+      const Vector3d target = surface_point(near_u(random), k3), origin = target + 0.5 * random.normal3();
       const Vector3d direction = target - origin;
       const RayHits hits = ray_hits(origin, direction, k3);
       ASSERT_GE(hits.count, 1);
