@@ -98,4 +98,15 @@ Patch bounded_patch(const Samples& samples, const SurfaceFit& fit, const MomentV
                     PatchMatrix(0.5 * (cov_local + cov_local.transpose())));
 }
 
+std::optional<Clamped> clamp_to_surface(Patch& patch) {
+  const PatchTypeRow& type = *patch.type;
+  if (type.surface != SurfaceType::sphere && type.surface != SurfaceType::circular_cylinder)
+    return std::nullopt;
+  double& d = patch.parameters[type.boundary_size - 1];  // d of the circle, d_y across the cylinder's axis
+  const Clamped clamped{d, 1.0 / std::abs(patch.parameters[type.curvature_at()])};
+  if (!(clamped.d > clamped.limit)) return std::nullopt;
+  d = clamped.limit;
+  return clamped;
+}
+
 }  // namespace patchlab

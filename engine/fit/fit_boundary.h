@@ -52,4 +52,11 @@ struct PatchPlan {
 Patch bounded_patch(const Samples& samples, const SurfaceFit& fit, const MomentVector& moments,
                     const JointMatrix& cov_joint, const PatchPlan& plan, const SurfaceFit* plane = nullptr);
 
+// A sphere or circular cylinder seen along z_l ends 1/|kappa| from its apex: a longer d is cut to that, its
+// covariance stays. What was cut; nothing where nothing was.
+struct Clamped {
+  double d, limit;  // m
+};
+std::optional<Clamped> clamp_to_surface(Patch& patch);
+
 }  // namespace patchlab

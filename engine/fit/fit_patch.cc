@@ -4,9 +4,9 @@
 
 namespace patchlab {
 
-Result<FitResult> fit_patch(const Observations& observations, const FitOptions& options,
-                            const Progress& progress) {
-  Result<Workbench> work = begin(observations, options);
+namespace {
+
+Result<FitResult> nine_steps(Result<Workbench> work, const Progress& progress) {
   if (!work) return work.error();
   fit_plane(*work);  // 1. a plane by least squares
   if (!keep_going(progress, 0.1)) return Error{ErrorCode::cancelled, "The fit was cancelled."};
@@ -20,6 +20,18 @@ Result<FitResult> fit_patch(const Observations& observations, const FitOptions& 
   bound_paraboloid(*work);  // 8. an ellipse for paraboloids
   bound_plane(*work);       // 9. any of the four for planes
   return conclude(*work);
+}
+
+}  // namespace
+
+Result<FitResult> fit_patch(const Observations& observations, const FitOptions& options,
+                            const Progress& progress) {
+  return nine_steps(begin(observations, options), progress);
+}
+
+Result<FitResult> refit_patch(const Patch& kept, const Observations& observations, const FitOptions& options,
+                              const Progress& progress) {
+  return nine_steps(begin_from(kept, observations, options), progress);
 }
 
 }  // namespace patchlab

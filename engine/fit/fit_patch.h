@@ -79,6 +79,14 @@ struct Candidate {
   std::string reason;  // empty or a sentence
 };
 
+// One row of the choice of a plane's outline: the least shape of a kind about the points.
+struct OutlineCandidate {
+  BoundaryType boundary;
+  double area = 0.0;   // m^2
+  double score = 0.0;  // 2 N ln(area / m^2) + 2 p ln N; the least is chosen (engine/fit/choose_outline.h)
+  bool chosen = false;
+};
+
 struct FitReport {
   FitMethod method = FitMethod::calibrated;
   BoundsMethod bounds = BoundsMethod::extent;
@@ -94,12 +102,13 @@ struct FitReport {
   double residual_rms = 0.0;  // m, orthogonal distance to the bounded patch's surface
   double coverage = 0.0;      // in [0, 1]
   bool accepted = false;
-  std::vector<Finding> reasons;       // why it was not accepted
-  std::vector<Finding> warnings;      // what the user should know of an accepted one
-  std::string verdict;                // one sentence
-  std::vector<Candidate> candidates;  // best first
-  std::vector<double> residuals;      // per observation, signed, in standard deviations
-  std::vector<std::string> steps;     // the nine steps with their numbers (--explain)
+  std::vector<Finding> reasons;            // why it was not accepted
+  std::vector<Finding> warnings;           // what the user should know of an accepted one
+  std::string verdict;                     // one sentence
+  std::vector<Candidate> candidates;       // best first
+  std::vector<OutlineCandidate> outlines;  // best first; of a plane whose outline was not named
+  std::vector<double> residuals;           // per observation, signed, in standard deviations
+  std::vector<std::string> steps;          // the nine steps with their numbers (--explain)
 };
 
 struct FitResult {
@@ -111,5 +120,11 @@ struct FitResult {
 // covariance that is not positive semi-definite, with its row), cancelled.
 Result<FitResult> fit_patch(const Observations& observations, const FitOptions& options,
                             const Progress& progress = {});
+
+// The fit of a kept patch to points added or removed, from where it stands: its surface type and its outline
+// are held, no other is tried, and the solver starts at its surface. Same result as a fit that names them, to
+// a small part of a standard deviation, in a fraction of its cost. Errors as above.
+Result<FitResult> refit_patch(const Patch& kept, const Observations& observations, const FitOptions& options,
+                              const Progress& progress = {});
 
 }  // namespace patchlab

@@ -96,11 +96,10 @@ double tukey_weight(double F) {
 
 SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const SurfaceState& start,
                        const SurfaceFitOptions& options, const std::optional<VertexPrior>& prior) {
-  const std::optional<VertexPrior> used = model.vertex_prior ? prior : std::nullopt;
   SurfaceFit fit;
   fit.model = model;
   fit.state = start;
-  fit.prior = used;
+  if (model.vertex_prior) fit.prior = prior;
   const SurfaceProblem problem(samples, model, options, fit.prior);
   LeastSquaresSummary summary = minimise(problem, fit.state, options.solver);
   fit.A = std::move(summary.at_solution.A);

@@ -67,9 +67,8 @@ SurfaceType by_threshold(const Vector2d& k) {
 SurfaceType printed_type(const Workbench& work) {
   switch (work.options.surface) {
     case SurfaceRequest::elliptic_paraboloid:
-      return SurfaceType::elliptic_paraboloid;
     case SurfaceRequest::hyperbolic_paraboloid:
-      return SurfaceType::hyperbolic_paraboloid;
+      return surface_type(work.surface);
     case SurfaceRequest::cylindric_paraboloid:
       return SurfaceType::cylindric_paraboloid;
     case SurfaceRequest::circular_paraboloid:

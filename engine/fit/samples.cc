@@ -9,7 +9,8 @@ namespace {
 
 Error no_fit(std::string sentence) { return {ErrorCode::no_finite_fit, std::move(sentence)}; }
 
-Result<void> check_sample(const Observations& observations, std::size_t i) {
+// The least eigenvalue of the covariance, as a share of its trace.
+Result<double> check_sample(const Observations& observations, std::size_t i) {
   const std::string row = "Point " + std::to_string(i) + " (counted from 0): ";
   if (!observations.points[i].allFinite()) return no_fit(row + "its position is not finite; remove it.");
   const Eigen::Matrix3d& cov = observations.covariances[i];
@@ -24,7 +25,7 @@ Result<void> check_sample(const Observations& observations, std::size_t i) {
     return no_fit(
         row + "its covariance is not positive semi-definite; check the noise model or the file's columns.");
   }
-  return {};
+  return least / cov.trace();
 }
 
 // Spread of the points in units of their noise, largest first, and the extent itself.
@@ -72,11 +73,12 @@ Result<Samples> make_samples(const Observations& observations, std::size_t least
     return no_fit("Too few points: " + std::to_string(n) + " where this surface needs at least " +
                   std::to_string(least) + "; select a larger region.");
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    const Result<void> good = check_sample(observations, i);
-    if (!good) return good.error();
-  }
   Samples samples;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Result<double> thinnest = check_sample(observations, i);
+    if (!thinnest) return thinnest.error();
+    if (*thinnest < 1e-12) ++samples.semidefinite;
+  }
   samples.observations = &observations;
   for (const Eigen::Vector3d& point : observations.points) samples.origin += point;
   samples.origin /= static_cast<double>(n);

@@ -13,6 +13,7 @@ struct Samples {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // m: mean of the points, added back at the end
   std::vector<Eigen::Vector3d> q;                    // m, about origin
   std::vector<Eigen::Matrix3d> cov;                  // m^2, as measured or re-evaluated at the foot points
+  std::size_t semidefinite = 0;                      // covariances without extent in some direction
   std::vector<double> robust;                        // Tukey weight in [0, 1]; 1 where nothing is doubted
   const Observations* observations = nullptr;        // outlives the samples
 

@@ -9,15 +9,13 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "engine/base/chi_square.h"
+#include "engine/fit/edge_lines.h"
+#include "engine/fit/hull.h"
 
 namespace patchlab {
 namespace {
 
 using Dual = Eigen::AutoDiffScalar<EdgeVector>;
-template <class T>
-using Vector2 = Eigen::Matrix<T, 2, 1>;
-template <class T>
-using Edges = Eigen::Matrix<T, 8, 1>;
 
 // The map from the free numbers of a shape to its edges: all eight, or phi rho_1..rho_4 of a rectangle.
 Eigen::Matrix<double, 8, Eigen::Dynamic, 0, 8, 8> J_edges_free(Corners corners) {
@@ -29,42 +27,6 @@ Eigen::Matrix<double, 8, Eigen::Dynamic, 0, 8, 8> J_edges_free(Corners corners) 
     J(2 * e + 1, 1 + e) = 1.0;
   }
   return J;
-}
-
-// Tangential coordinate, along edge a, of its meeting with edge b.
-template <class T>
-T meeting(const Edges<T>& edges, int a, int b) {
-  using std::cos;
-  using std::sin;
-  const T turn = edges[2 * b] - edges[2 * a];
-  return (edges[2 * b + 1] - edges[2 * a + 1] * cos(turn)) / sin(turn);
-}
-
-template <class T>
-Vector2<T> corner(const Edges<T>& edges, int a, int b) {
-  using std::cos;
-  using std::sin;
-  const T s = meeting<T>(edges, a, b), c = cos(edges[2 * a]), n = sin(edges[2 * a]), rho = edges[2 * a + 1];
-  return {T(rho * c - s * n), T(rho * n + s * c)};
-}
-
-// Area and its gradient: an edge of length L moved out by d rho sweeps L d rho; turned by d phi it sweeps
-// -(s_2^2 - s_1^2)/2 d phi.
-template <class T>
-struct Area {
-  T value = T(0.0);
-  Edges<T> gradient;
-};
-template <class T>
-Area<T> area_of(const Edges<T>& edges) {
-  Area<T> area;
-  for (int e = 0; e < 4; ++e) {
-    const T s_1 = meeting<T>(edges, e, (e + 3) % 4), s_2 = meeting<T>(edges, e, (e + 1) % 4);
-    area.gradient[2 * e] = T(0.5) * (s_1 * s_1 - s_2 * s_2);
-    area.gradient[2 * e + 1] = s_2 - s_1;
-    area.value += T(0.5) * edges[2 * e + 1] * (s_2 - s_1);
-  }
-  return area;
 }
 
 struct Likelihood {
@@ -172,100 +134,7 @@ void climb(const SoftEdgeProblem& problem, Corners corners, SoftShape& shape) {
 // in by 0.3375 (sigma^2 - sigma_0^2) / sigma, to 2 % of that.
 constexpr double inset_of_sharp_edges = 0.3375;
 
-double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
-
-// A convex polygon as lines, for dropping edges.
-struct Line {
-  double phi, rho;
-};
-Vector2d meet(const Line& a, const Line& b) {
-  Edges<double> edges = Edges<double>::Zero();
-  edges.head<4>() << a.phi, a.rho, b.phi, b.rho;
-  return corner<double>(edges, 0, 1);
-}
-
-// Area gained when line i is dropped and its neighbours are extended to meet; infinite when they do not.
-double cost_of_dropping(const std::vector<Line>& lines, std::size_t i) {
-  const std::size_t n = lines.size();
-  const Line &before = lines[(i + n - 1) % n], &after = lines[(i + 1) % n];
-  const double turn = wrapped(after.phi - before.phi);
-  if (turn <= 1e-6 || turn >= std::numbers::pi - 1e-3) return std::numeric_limits<double>::infinity();
-  const Vector2d tip = meet(before, after), p = meet(before, lines[i]), q = meet(lines[i], after);
-  return 0.5 * std::abs((p - tip).x() * (q - tip).y() - (p - tip).y() * (q - tip).x());
-}
-
-EdgeVector quad_about(const std::vector<Vector2d>& hull) {
-  std::vector<Line> lines;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vector2d along = hull[(i + 1) % hull.size()] - hull[i];
-    const double phi = std::atan2(-along.x(), along.y());
-    lines.push_back({phi, Vector2d(std::cos(phi), std::sin(phi)).dot(hull[i])});
-  }
-  while (lines.size() > 4) {
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const double cost = cost_of_dropping(lines, i);
-      if (cost < least) {
-        least = cost;
-        best = i;
-      }
-    }
-    lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(best));
-  }
-  EdgeVector edges;
-  for (int e = 0; e < 4; ++e) {
-    const Line& l = lines[static_cast<std::size_t>(e)];
-    edges.segment<2>(2 * e) << l.phi, l.rho;
-  }
-  return edges;
-}
-
-// The rectangle of least area about a hull: one side lies on a hull edge.
-EdgeVector rectangle_about(const std::vector<Vector2d>& hull) {
-  EdgeVector best;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vector2d along = hull[(i + 1) % hull.size()] - hull[i];
-    const double phi = std::atan2(-along.x(), along.y());
-    EdgeVector edges;
-    for (int e = 0; e < 4; ++e) {
-      const double angle = phi + e * std::numbers::pi / 2.0;
-      const Vector2d n(std::cos(angle), std::sin(angle));
-      double reach = -std::numeric_limits<double>::infinity();
-      for (const Vector2d& v : hull) reach = std::max(reach, n.dot(v));
-      edges.segment<2>(2 * e) << angle, reach;
-    }
-    const double area = (edges[1] + edges[5]) * (edges[3] + edges[7]);
-    if (area < least) {
-      least = area;
-      best = edges;
-    }
-  }
-  return best;
-}
-
 }  // namespace
-
-std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
-  const auto turn = [](const Vector2d& o, const Vector2d& a, const Vector2d& b) {
-    return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x();
-  };
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  std::vector<Vector2d> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = hull.size();
-    for (const Vector2d& p : points) {
-      while (hull.size() >= first + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 SoftShape fit_soft_edges(const std::vector<Vector2d>& points, const std::vector<double>& weights, double used,
                          double lateral_variance, Corners corners) {
@@ -290,44 +159,6 @@ SoftShape fit_soft_edges(const std::vector<Vector2d>& points, const std::vector<
     if (shape.log_likelihood > best.log_likelihood) best = shape;
   }
   return best;
-}
-
-EdgeVector moved_out(const EdgeVector& edges, double by) {
-  EdgeVector moved = edges;
-  for (int e = 0; e < 4; ++e) moved[2 * e + 1] += by;
-  return moved;
-}
-
-EdgeQuad quad_of_edges(const EdgeVector& edges) {
-  using std::acos;
-  using std::atan2;
-  using std::sqrt;
-  Edges<Dual> dual;
-  for (int i = 0; i < 8; ++i) dual[i] = Dual(edges[i], 8, i);
-  std::array<Vector2<Dual>, 4> v;
-  for (int i = 0; i < 4; ++i) v[static_cast<std::size_t>(i)] = corner<Dual>(dual, i, (i + 1) % 4);
-  const Vector2<Dual> a = v[2] - v[0], b = v[3] - v[1], across = v[1] - v[0];
-  const Dual denominator = a[0] * b[1] - a[1] * b[0];
-  const Dual share =
-      (across[0] * b[1] - across[1] * b[0]) / denominator;  // the diagonals meet at v_1 + share a
-  const Vector2<Dual> centre = {Dual(v[0][0] + share * a[0]), Dual(v[0][1] + share * a[1])};
-  EdgeQuad quad;
-  const auto put = [&](int row, const Dual& value) {
-    quad.J_quad_edges.row(row) = value.derivatives().transpose();
-    return value.value();
-  };
-  std::array<Dual, 4> angle;
-  for (int i = 0; i < 4; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const Dual x = v[at][0] - centre[0], y = v[at][1] - centre[1];
-    quad.d[i] = put(i, Dual(sqrt(Dual(x * x + y * y))));
-    angle[at] = atan2(y, x);
-  }
-  const double offset = wrapped(angle[0].value() - angle[3].value()) - (angle[0].value() - angle[3].value());
-  quad.d[4] = put(4, Dual(0.5 * (angle[0] - angle[3] + offset)));  // gamma, Eq. (21)
-  quad.turn = put(5, Dual(angle[0] - 0.5 * (angle[0] - angle[3] + offset)));
-  quad.centre = {put(6, centre[0]), put(7, centre[1])};
-  return quad;
 }
 
 }  // namespace patchlab

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/fit/choose_outline.h"
+#include "engine/fit/fit_model.h"
 #include "engine/fit/paper_steps.h"
 #include "engine/fit/plane_outline.h"
 #include "engine/fit/robust.h"
@@ -38,43 +40,6 @@ Result<void> check_options(const Workbench& work) {
   return {};
 }
 
-// The 2-jet over the centroid: every candidate resembles it, so the noise is re-evaluated on it before they
-// are fitted.
-SurfaceFit quadratic_fit(Workbench& work) {
-  Samples& samples = work.samples;
-  const SurfaceModel two_jet = fixed_centre(surface_model(ModelKind::paraboloid));
-  const SurfaceState start = height_field(samples, work.plane);
-  SurfaceFit fit = fit_surface(samples, two_jet, start, {});
-  for (int pass = 0; pass < 2 && reevaluate_noise(samples, fit); ++pass) {
-    fit = fit_surface(samples, two_jet, fit.state, {});
-  }
-  if (!std::isfinite(fit.cost)) fit.state = start;
-  return fit;
-}
-
-// One candidate: the best of its starts, a paraboloid's with the prior of its vertex.
-SurfaceFit fit_model(const Samples& samples, const SurfaceModel& model, const SurfaceState& quadratic) {
-  const std::vector<SurfaceState> first = starts(samples, model, quadratic);
-  if (!model.vertex_prior) return fit_surface(samples, model, first, {});
-  const SurfaceFit fixed = fit_surface(samples, fixed_centre(model), first, {});
-  const VertexStart vertex = vertex_start(samples, fixed);
-  SurfaceFit fit = fit_surface(samples, model, vertex.state, {}, vertex.prior);
-  fit.iterations += fixed.iterations;
-  return fit;
-}
-
-// Tukey's fit over all points, from the fit of the inliers.
-SurfaceFit fit_robustly(const Samples& all, const Samples& inliers, const SurfaceModel& model,
-                        const SurfaceState& quadratic, double scale) {
-  const SurfaceFit start = fit_model(inliers, model, quadratic);
-  SurfaceFitOptions tukey;
-  tukey.robust = true;
-  tukey.robust_scale = scale;
-  SurfaceFit fit = fit_surface(all, model, start.state, tukey, start.prior);
-  fit.iterations += start.iterations;
-  return fit;
-}
-
 Vector3d mean_viewpoint(const Samples& samples) {
   Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 0; i < samples.size(); ++i) sum += samples.viewpoint(i);
@@ -94,9 +59,34 @@ const SurfaceFit* plane_of_step_1(const Workbench& work) {
   return work.plan.apex == Apex::by_plane ? &work.plane_fit : nullptr;
 }
 
+// The one that was asked for, or the one that the points fill most tightly.
+BoundaryType plane_boundary(Workbench& work) {
+  switch (work.options.boundary) {
+    case BoundaryRequest::ellipse:
+      return BoundaryType::ellipse;
+    case BoundaryRequest::circle:
+      return BoundaryType::circle;
+    case BoundaryRequest::rectangle:
+      return BoundaryType::rectangle;
+    case BoundaryRequest::convex_quad:
+      return BoundaryType::convex_quad;
+    case BoundaryRequest::automatic:
+      break;
+  }
+  work.outlines = choose_outline(foot_points(work.samples, work.surface));
+  return work.outlines.front().boundary;
+}
+
 void bound(Workbench& work) {
   work.patch = bounded_patch(work.samples, work.surface, work.moments, work.cov_joint, work.plan,
                              plane_of_step_1(work));
+  if (const std::optional<Clamped> clamped = clamp_to_surface(work.patch)) {
+    work.notes.push_back(
+        {"bound_clamped", clamped->d, clamped->limit,
+         line("The points reach %.3g mm from the apex, beyond what this surface has of its radius of "
+              "%.3g mm; the outline ends there.",
+              1e3 * clamped->d, 1e3 * clamped->limit)});
+  }
   log_bound(work);
 }
 
@@ -122,6 +112,28 @@ Result<Workbench> begin(const Observations& observations, const FitOptions& opti
   Result<Samples> samples = make_samples(observations, least_points(options.surface));
   if (!samples) return samples.error();
   work.samples = std::move(*samples);
+  if (const std::size_t flat = work.samples.semidefinite; flat > 0) {
+    work.notes.push_back(
+        {"covariance_semidefinite", static_cast<double>(flat), 0.0,
+         line("%zu covariances have no extent in some direction; where a surface lies across it, a "
+              "millionth of their size counts there.",
+              flat)});
+  }
+  return work;
+}
+
+Result<Workbench> begin_from(const Patch& kept, const Observations& observations, const FitOptions& options) {
+  FitOptions named = options;
+  named.surface = *surface_request_from_name(name(kept.type->surface));
+  named.boundary = *boundary_request_from_name(name(kept.type->boundary));
+  Result<Workbench> work = begin(observations, named);
+  if (!work) return work;
+  SurfaceState state;
+  for (int i = 0; i < kept.type->curvature_size; ++i)
+    state.k[i] = kept.parameters[kept.type->curvature_at() + i];
+  state.R = axes(kept);
+  state.c = centre(kept) - work->samples.origin;
+  work->kept = state;
   return work;
 }
 
@@ -138,16 +150,16 @@ void fit_plane(Workbench& work) {
 
 void fit_surfaces(Workbench& work) {
   if (by_paper(work)) return paper_surfaces(work);
-  const SurfaceFit two_jet = quadratic_fit(work);
-  const SurfaceState& quadratic = two_jet.state;
+  const SurfaceFit two_jet = quadratic_fit(work.samples, work.plane);
+  const ModelStart start{two_jet.state, work.kept};
   work.robust_scale = work.options.robust ? robust_scale(work.samples, two_jet) : 1.0;
   const Samples inliers = work.samples;
   if (work.options.robust) std::fill(work.samples.robust.begin(), work.samples.robust.end(), 1.0);
   for (const ModelKind kind : candidate_models(work.options.surface, work.samples.size())) {
     const SurfaceModel& model = surface_model(kind);
     work.fits.push_back(work.options.robust
-                            ? fit_robustly(work.samples, inliers, model, quadratic, work.robust_scale)
-                            : fit_model(work.samples, model, quadratic));
+                            ? fit_model_robustly(work.samples, inliers, model, start, work.robust_scale)
+                            : fit_model(work.samples, model, start));
     const SurfaceFit& fit = work.fits.back();
     work.log.push_back("2. " + words(surface_type(fit)) +
                        line(": chi-square %.2f after %d iterations, curvature (%.4g, %.4g) 1/m", fit.chi2,
@@ -176,24 +188,8 @@ void refine_type(Workbench& work) {
 
 void choose_boundary(Workbench& work) {
   const SurfaceType surface = work.surface_type;
-  BoundaryType boundary = default_boundary(surface);
-  if (surface == SurfaceType::plane) {
-    switch (work.options.boundary) {
-      case BoundaryRequest::circle:
-        boundary = BoundaryType::circle;
-        break;
-      case BoundaryRequest::rectangle:
-        boundary = BoundaryType::rectangle;
-        break;
-      case BoundaryRequest::convex_quad:
-        boundary = BoundaryType::convex_quad;
-        break;
-      case BoundaryRequest::ellipse:
-      case BoundaryRequest::automatic:
-        boundary = BoundaryType::ellipse;
-        break;
-    }
-  }
+  const BoundaryType boundary =
+      surface == SurfaceType::plane ? plane_boundary(work) : default_boundary(surface);
   work.plan.type = find_patch_type(surface, boundary);
   work.plan.apex = by_paper(work) ? Apex::by_plane : Apex::over_centroid;
   work.plan.scale =
@@ -242,6 +238,13 @@ void bound_plane(Workbench& work) {
 }
 
 Result<FitResult> conclude(Workbench& work) {
+  if (!work.surface.converged && !by_paper(work)) {
+    return Error{
+        ErrorCode::no_finite_fit,
+        line(
+            "The fit of the %s did not converge in %d iterations; select a larger region, or another surface.",
+            words(work.surface_type).c_str(), work.surface.iterations)};
+  }
   FitResult result;
   result.patch = conventional(work.patch, mean_viewpoint(work.samples));
   FitReport& report = result.report;
@@ -250,6 +253,8 @@ Result<FitResult> conclude(Workbench& work) {
   report.containment = work.containment;
   report.robust = work.options.robust;
   report.candidates = work.choice.candidates;
+  report.outlines = work.outlines;
+  report.warnings = work.notes;
   report.iterations = work.surface.iterations;
   report.converged = work.surface.converged;
   const Distance distance = by_paper(work) ? Distance::paper : Distance::exact;

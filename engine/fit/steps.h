@@ -1,6 +1,7 @@
 // The nine steps of Section IV as functions over one workbench; engine/fit/fit_patch.cc calls them in order.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct Workbench {
   BoundsMethod bounds = BoundsMethod::extent;
   double containment = 1.0;  // Gamma
   Samples samples;
+  std::optional<SurfaceState> kept;  // the surface that is refitted, about samples.origin
+  std::vector<Finding> notes;        // warnings met on the way
 
   SurfaceState plane;    // step 1
   SurfaceFit plane_fit;  //         refitted with covariances, in the paper's method only
@@ -28,7 +31,8 @@ struct Workbench {
   SurfaceFit surface;            //         the one that was chosen
   SurfaceType surface_type{};    //         and its name in Table I
   PatchPlan plan;                // step 4
-  FootPoints feet;               // step 5
+  std::vector<OutlineCandidate> outlines;
+  FootPoints feet;  // step 5
   MomentVector moments = MomentVector::Zero();
   JointMatrix cov_joint = JointMatrix::Zero();
   Patch patch;                   // steps 6 to 9
@@ -37,6 +41,9 @@ struct Workbench {
 
 // Options that make sense, points that span a surface. usage or no_finite_fit otherwise.
 Result<Workbench> begin(const Observations& observations, const FitOptions& options);
+
+// The same for a refit of a kept patch: its type and its outline are named, its surface is the start.
+Result<Workbench> begin_from(const Patch& kept, const Observations& observations, const FitOptions& options);
 
 void fit_plane(Workbench& work);         // step 1
 void fit_surfaces(Workbench& work);      // step 2

@@ -87,6 +87,11 @@ double depth_sigma(const Samples& samples, const Patch& patch) {
   return std::sqrt(sum / static_cast<double>(samples.size()));
 }
 
+// |kappa| d along each axis.
+Vector2d bends(const Patch& patch) {
+  return k3(patch).head<2>().cwiseAbs().cwiseProduct(extent(boundary(patch)));
+}
+
 double sigma_of(const Patch& patch, int index) {
   return std::sqrt(std::max((*patch.covariance_local)(index, index), 0.0));
 }
@@ -117,7 +122,7 @@ void check_limits(const Patch& patch, const ValidationLimits& limits, FitReport&
            text("Only %.0f %% of the patch is covered by points as it should be; the limit is %.0f %%.",
                 100 * report.coverage, 100 * limits.coverage));
   }
-  const double bend = k3(patch).cwiseAbs().maxCoeff() * extent(boundary(patch)).maxCoeff();
+  const double bend = bends(patch).maxCoeff();
   if (bend > limits.curvature_extent) {
     reject(
         "curvature", bend, limits.curvature_extent,
@@ -125,6 +130,27 @@ void check_limits(const Patch& patch, const ValidationLimits& limits, FitReport&
             "Curvature times extent is %.2g, more than %.2g: the patch bends out of what one surface can hold.",
             bend, limits.curvature_extent));
   }
+}
+
+// A type that was named, where the points bend otherwise.
+void check_type(const Patch& patch, SurfaceRequest request, FitReport& report) {
+  const bool elliptic = patch.type->surface == SurfaceType::elliptic_paraboloid;
+  const bool other = (request == SurfaceRequest::elliptic_paraboloid && !elliptic) ||
+                     (request == SurfaceRequest::hyperbolic_paraboloid && elliptic);
+  if (!other) return;
+  const Eigen::Index at = patch.type->curvature_at();
+  const Eigen::Index flatter =
+      std::abs(patch.parameters[at]) < std::abs(patch.parameters[at + 1]) ? at : at + 1;
+  const double kappa = patch.parameters[flatter], sigma = sigma_of(patch, static_cast<int>(flatter));
+  report.reasons.push_back(
+      {"type", kappa / sigma, 0.0,
+       text(
+           elliptic
+               ? "Hyperbolic was asked for, but the points bend to one side: the curvatures have one sign, the lesser "
+                 "is %.2g +- %.2g 1/m."
+               : "Elliptic was asked for, but the points bend to both sides: the curvatures differ in sign, the "
+                 "lesser is %.2g +- %.2g 1/m.",
+           kappa, sigma)});
 }
 
 void warn_few_points(const SurfaceFit& fit, FitReport& report) {
@@ -145,7 +171,7 @@ void warn_curvature(const Samples& samples, const Patch& patch, FitReport& repor
   if (type.curvature_size == 0) return;
   const int last = type.curvature_at() + type.curvature_size - 1;
   const double kappa = patch.parameters[last], significance = std::abs(kappa) / sigma_of(patch, last);
-  const double d = extent(boundary(patch)).maxCoeff(), sag = 0.5 * std::abs(kappa) * d * d;
+  const double sag = 0.5 * bends(patch).cwiseProduct(extent(boundary(patch))).maxCoeff();
   const double noise = depth_sigma(samples, patch);
   if (type.surface == SurfaceType::circular_cylinder || type.surface == SurfaceType::cylindric_paraboloid) {
     const double spin = sigma_of(patch, type.rotation_at() + 2);
@@ -172,7 +198,7 @@ void warn_curvature(const Samples& samples, const Patch& patch, FitReport& repor
   const bool bounded = type.surface == SurfaceType::sphere || type.surface == SurfaceType::circular_cylinder;
   const Vector3d from = centre(patch) - samples.origin - samples.viewpoint(0);
   const double tilt = std::acos(std::clamp(std::abs(axes(patch).col(2).dot(from.normalized())), 0.0, 1.0));
-  const double reach = tilt + std::asin(std::min(std::abs(kappa) * d, 1.0));
+  const double reach = tilt + std::asin(std::min(bends(patch).maxCoeff(), 1.0));
   constexpr double limit = 80.0 * 3.14159265358979 / 180.0;
   if (bounded && kappa < 0.0 && reach > limit) {
     warn(
@@ -184,10 +210,13 @@ void warn_curvature(const Samples& samples, const Patch& patch, FitReport& repor
 void warn_orientation(const Patch& patch, FitReport& report) {
   const PatchTypeRow& type = *patch.type;
   if (type.revolute()) return;
+  if (type.surface != SurfaceType::plane) return;
   const double spin = sigma_of(patch, type.rotation_at() + 2);
-  if (type.surface == SurfaceType::plane && spin > 0.3) {
+  const double aspect = patch.parameters[0] / patch.parameters[1];
+  const bool round = type.boundary == BoundaryType::ellipse && aspect < 1.05;
+  if (spin > 0.3 || round) {
     report.warnings.push_back(
-        {"orientation_undetermined", spin, 0.3,
+        {"orientation_undetermined", round ? aspect : spin, round ? 1.05 : 0.3,
          text("The outline is nearly as wide as long: its direction in the plane is uncertain by "
               "%.2g rad.",
               spin)});
@@ -260,6 +289,7 @@ void validate_fit(const Samples& samples, const SurfaceFit& fit, const FootPoint
     points.push_back(apply_inverse(pose, samples.origin + fit.state.c + fit.state.R * x));
   }
   report.coverage = coverage(patch, points, feet.weight);
+  check_type(patch, options.surface, report);
   check_limits(patch, options.limits, report);
   warn_few_points(fit, report);
   warn_curvature(samples, patch, report);

@@ -1,0 +1,331 @@
+// What the fit answers where the points say little or nothing: an error or a warning with its value, never a
+// confident wrong answer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "engine/fit/fit_patch.h"
+#include "engine/patch/surface.h"
+#include "tests/support/seeded_random.h"
+
+namespace patchlab {
+namespace {
+
+using test::SeededRandom;
+
+// Points of a height field z(u) over |x|, |y| <= half, 1 m in front of a camera that looks along +z, turned
+// by `tilt` about x, with isotropic noise.
+struct Field {
+  std::function<double(const Vector2d&)> height = [](const Vector2d&) { return 0.0; };
+  Vector2d half = {0.1, 0.08};  // m
+  double sigma = 1e-3;          // m
+  double tilt = 0.3;            // rad
+  std::size_t points = 300;
+};
+
+Observations observe(Random& random, const Field& field) {
+  Observations observations;
+  observations.optical_axis = Vector3d::UnitZ();
+  const Matrix3d R = exp_map(Vector3d(field.tilt, 0.0, 0.0)) * exp_map(Vector3d(3.14159265358979, 0.0, 0.0));
+  for (std::size_t i = 0; i < field.points; ++i) {
+    const Vector2d u(random.uniform(-1.0, 1.0) * field.half.x(), random.uniform(-1.0, 1.0) * field.half.y());
+    const Vector3d q = Vector3d(0.02, -0.03, 1.0) + R * Vector3d(u.x(), u.y(), field.height(u));
+    observations.points.push_back(q + field.sigma * random.normal3());
+    observations.covariances.push_back(field.sigma * field.sigma * Matrix3d::Identity());
+  }
+  return observations;
+}
+
+std::function<double(const Vector2d&)> bowl(double kx, double ky) {
+  return [=](const Vector2d& u) { return 0.5 * (kx * u.x() * u.x() + ky * u.y() * u.y()); };
+}
+
+Result<FitResult> fit(const Observations& observations, SurfaceRequest surface) {
+  FitOptions options;
+  options.surface = surface;
+  return fit_patch(observations, options);
+}
+
+const Finding* find(const std::vector<Finding>& findings, const std::string& name) {
+  const auto at =
+      std::find_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.name == name; });
+  return at == findings.end() ? nullptr : &*at;
+}
+
+void expect_refused(const Result<FitResult>& result, const std::string& says) {
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::no_finite_fit);
+  EXPECT_NE(result.error().message.find(says), std::string::npos) << result.error().message;
+}
+
+TEST(EdgeCase, FewerPointsThanTheSurfaceNeedsAreRefusedAndEnoughAreNot) {
+  SeededRandom random;
+  const std::pair<SurfaceRequest, std::size_t> least[] = {{SurfaceRequest::plane, 4},
+                                                          {SurfaceRequest::sphere, 5},
+                                                          {SurfaceRequest::circular_paraboloid, 5},
+                                                          {SurfaceRequest::circular_cylinder, 6},
+                                                          {SurfaceRequest::cylindric_paraboloid, 6},
+                                                          {SurfaceRequest::elliptic_paraboloid, 7},
+                                                          {SurfaceRequest::hyperbolic_paraboloid, 7},
+                                                          {SurfaceRequest::automatic, 4}};
+  for (const auto& [surface, needed] : least) {
+    Field field;
+    field.points = needed - 1;
+    expect_refused(fit(observe(random, field), surface), "Too few points");
+  }
+}
+
+TEST(EdgeCase, FewPointsAreWarnedOf) {
+  SeededRandom random;
+  Field field;
+  field.points = 12;
+  const auto result = fit(observe(random, field), SurfaceRequest::plane);
+  ASSERT_TRUE(result);
+  const Finding* warning = find(result->report.warnings, "few_points");
+  ASSERT_NE(warning, nullptr);
+  EXPECT_EQ(warning->value, 12.0);
+  EXPECT_EQ(warning->limit, 15.0);
+}
+
+TEST(EdgeCase, NoPointsAtAllAreRefused) {
+  expect_refused(fit({}, SurfaceRequest::automatic), "Too few points: 0");
+}
+
+TEST(EdgeCase, CoincidentPointsAreRefused) {
+  SeededRandom random;
+  Field field;
+  field.half = {0.0, 0.0};
+  for (const double sigma : {1e-3, 1e-9}) {
+    field.sigma = sigma;
+    expect_refused(fit(observe(random, field), SurfaceRequest::sphere), "coincide");
+  }
+}
+
+TEST(EdgeCase, CollinearPointsAreRefused) {
+  SeededRandom random;
+  Field field;
+  field.half.y() = 0.0;
+  for (const double sigma : {1e-3, 1e-9}) {
+    field.sigma = sigma;
+    for (const SurfaceRequest surface : {SurfaceRequest::plane, SurfaceRequest::circular_cylinder}) {
+      expect_refused(fit(observe(random, field), surface), "line");
+    }
+  }
+}
+
+TEST(EdgeCase, BadCovariancesAreRefusedByRow) {
+  SeededRandom random;
+  const Observations good = observe(random, {});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::pair<Matrix3d, const char*> bad[] = {
+      {Vector3d(1e-6, 1e-6, -1e-8).asDiagonal(), "not positive semi-definite"},
+      {Matrix3d::Zero(), "not positive semi-definite"},
+      {(Matrix3d() << 1e-6, 1e-7, 0, 0, 1e-6, 0, 0, 0, 1e-6).finished(), "not symmetric"},
+      {Matrix3d::Constant(nan), "not finite"}};
+  for (const auto& [cov, says] : bad) {
+    Observations observations = good;
+    observations.covariances[17] = cov;
+    const auto result = fit(observations, SurfaceRequest::plane);
+    expect_refused(result, says);
+    expect_refused(result, "Point 17");
+  }
+  Observations observations = good;
+  observations.points[5].y() = nan;
+  expect_refused(fit(observations, SurfaceRequest::plane), "Point 5");
+}
+
+TEST(EdgeCase, SemidefiniteCovariancesAreClampedAndNoted) {
+  SeededRandom random;
+  Observations observations = observe(random, {});
+  const Vector3d ray = observations.points.front().normalized();
+  for (Matrix3d& cov : observations.covariances) cov = 1e-6 * ray * ray.transpose();
+  const auto result = fit(observations, SurfaceRequest::plane);
+  ASSERT_TRUE(result);
+  const Finding* note = find(result->report.warnings, "covariance_semidefinite");
+  ASSERT_NE(note, nullptr);
+  EXPECT_EQ(note->value, 300.0);
+  EXPECT_TRUE(result->patch.covariance->allFinite());
+}
+
+TEST(EdgeCase, AxisOfANearlyFlatCylinderIsSaidToBeUndetermined) {
+  SeededRandom random;
+  for (const SurfaceRequest surface :
+       {SurfaceRequest::circular_cylinder, SurfaceRequest::cylindric_paraboloid}) {
+    const auto result = fit(observe(random, {}), surface);
+    ASSERT_TRUE(result);
+    EXPECT_NE(find(result->report.warnings, "axis_undetermined"), nullptr);
+  }
+}
+
+TEST(EdgeCase, AxisOfABentCylinderIsNot) {
+  SeededRandom random;
+  Field field;
+  field.height = bowl(0.0, -6.0);
+  const auto result = fit(observe(random, field), SurfaceRequest::circular_cylinder);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(find(result->report.warnings, "axis_undetermined"), nullptr);
+}
+
+TEST(EdgeCase, NearlyFlatSphereIsSaidToBeFlat) {
+  SeededRandom random;
+  int warned = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto result = fit(observe(random, {}), SurfaceRequest::sphere);
+    ASSERT_TRUE(result);
+    if (const Finding* warning = find(result->report.warnings, "curvature_insignificant")) {
+      EXPECT_LT(warning->value, 3.0);
+      ++warned;
+    }
+  }
+  EXPECT_GE(warned, 18);  // below 3 sigma in 99.7 % of all
+}
+
+TEST(EdgeCase, CurvatureBelowTheNoiseOfOnePointIsLowSignal) {
+  SeededRandom random;
+  Field field;
+  field.sigma = 4e-3;
+  field.height = bowl(0.3, 0.3);  // sag 1.5 mm at 0.1 m
+  const auto result = fit(observe(random, field), SurfaceRequest::sphere);
+  ASSERT_TRUE(result);
+  const Finding* warning = find(result->report.warnings, "low_signal");
+  ASSERT_NE(warning, nullptr);
+  EXPECT_LT(warning->value, warning->limit);
+}
+
+TEST(EdgeCase, OutlineOfASphereEndsAtItsRadius) {
+  SeededRandom random;
+  Observations observations;
+  observations.viewpoint = {0.0, 0.0, 2.0};
+  for (int i = 0; i < 500; ++i) {  // nine tenths of a ball of 50 mm
+    Vector3d n = random.unit3();
+    while (n.z() < -0.8) n = random.unit3();
+    observations.points.push_back(0.05 * n + 5e-4 * random.normal3());
+    observations.covariances.push_back(2.5e-7 * Matrix3d::Identity());
+  }
+  const auto result = fit(observations, SurfaceRequest::sphere);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(validate(result->patch));
+  EXPECT_LE(result->patch.parameters[0] * std::abs(result->patch.parameters[1]), 1.0);
+}
+
+TEST(EdgeCase, SelfOccludedBallIsSaidToBeSeenInPart) {
+  SeededRandom random;
+  Observations observations;
+  observations.optical_axis = Vector3d::UnitZ();
+  const Vector3d centre(0.0, 0.0, 1.0);
+  while (observations.size() < 400) {  // all that a camera at the origin sees of a ball of 80 mm
+    const Vector3d n = random.unit3(), q = centre + 0.08 * n;
+    if (n.dot(q) > 0.0) continue;
+    observations.points.push_back(q + 5e-4 * random.normal3());
+    observations.covariances.push_back(2.5e-7 * Matrix3d::Identity());
+  }
+  const auto result = fit(observations, SurfaceRequest::sphere);
+  ASSERT_TRUE(result);
+  EXPECT_NE(find(result->report.warnings, "self_occluded"), nullptr);
+  EXPECT_NEAR(-1.0 / result->patch.parameters[1], 0.08, 5e-4);
+}
+
+TEST(EdgeCase, GrazingPlaneIsAPlainResult) {
+  SeededRandom random;
+  Field field;
+  field.tilt = 1.45;  // 83 degrees
+  const auto result = fit(observe(random, field), SurfaceRequest::plane);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->report.accepted) << result->report.verdict;
+}
+
+TEST(EdgeCase, DirectionOfARoundOutlineIsUndetermined) {
+  SeededRandom random;
+  Field field;
+  field.half = {0.1, 0.1};
+  field.points = 3000;
+  FitOptions options;
+  options.surface = SurfaceRequest::plane;
+  options.boundary = BoundaryRequest::ellipse;
+  const auto round = fit_patch(observe(random, field), options);
+  ASSERT_TRUE(round);
+  EXPECT_NE(find(round->report.warnings, "orientation_undetermined"), nullptr);
+  field.half = {0.1, 0.06};
+  const auto longer = fit_patch(observe(random, field), options);
+  ASSERT_TRUE(longer);
+  EXPECT_EQ(find(longer->report.warnings, "orientation_undetermined"), nullptr);
+}
+
+TEST(EdgeCase, NormalAgainstZIsReportedAsSingular) {
+  SeededRandom random;
+  Field field;
+  field.tilt = 0.02;
+  FitOptions options;
+  options.surface = SurfaceRequest::plane;
+  options.boundary = BoundaryRequest::circle;  // rectangles have no r_xy
+  const auto result = fit_patch(observe(random, field), options);
+  ASSERT_TRUE(result);
+  EXPECT_NE(find(result->report.warnings, "near_singular"), nullptr);
+  EXPECT_LT(result->patch.covariance_local->diagonal().maxCoeff(), 1.0);  // never singular there
+}
+
+TEST(EdgeCase, WrongSurfaceIsNotAcceptedAndItsSigmaIsNotInflated) {
+  SeededRandom random;
+  Field field;
+  field.height = bowl(6.0, -6.0);
+  const Observations observations = observe(random, field);
+  const auto right = fit(observations, SurfaceRequest::hyperbolic_paraboloid);
+  const auto wrong = fit(observations, SurfaceRequest::plane);
+  ASSERT_TRUE(right && wrong);
+  EXPECT_TRUE(right->report.accepted) << right->report.verdict;
+  EXPECT_FALSE(wrong->report.accepted);
+  EXPECT_NE(find(wrong->report.reasons, "chi_square"), nullptr);
+  field.height = bowl(0.0, 0.0);
+  const auto flat = fit(observe(random, field), SurfaceRequest::plane);
+  ASSERT_TRUE(flat);
+  const auto height_variance = [](const FitResult& result) {
+    const PatchMatrix& cov = *result.patch.covariance_local;
+    return cov(cov.rows() - 1, cov.cols() - 1);
+  };
+  EXPECT_NEAR(height_variance(*wrong) / height_variance(*flat), 1.0, 0.2);
+}
+
+TEST(EdgeCase, TypeThatTheCurvaturesDenyIsNotAccepted) {
+  SeededRandom random;
+  Field field;
+  field.height = bowl(6.0, -6.0);
+  const auto saddle = fit(observe(random, field), SurfaceRequest::elliptic_paraboloid);
+  ASSERT_TRUE(saddle);
+  EXPECT_EQ(saddle->patch.type->surface, SurfaceType::hyperbolic_paraboloid);
+  EXPECT_FALSE(saddle->report.accepted);
+  EXPECT_NE(find(saddle->report.reasons, "type"), nullptr);
+  field.height = bowl(5.0, 8.0);
+  const auto dish = fit(observe(random, field), SurfaceRequest::hyperbolic_paraboloid);
+  ASSERT_TRUE(dish);
+  EXPECT_EQ(dish->patch.type->surface, SurfaceType::elliptic_paraboloid);
+  EXPECT_NE(find(dish->report.reasons, "type"), nullptr);
+}
+
+TEST(EdgeCase, LongPipeIsAccepted) {
+  SeededRandom random;
+  Field field;
+  field.half = {0.5, 0.03};
+  const double radius = 0.05;
+  field.height = [=](const Vector2d& u) { return std::sqrt(radius * radius - u.y() * u.y()) - radius; };
+  const auto result = fit(observe(random, field), SurfaceRequest::circular_cylinder);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->report.accepted) << result->report.verdict;
+}
+
+TEST(EdgeCase, ContainmentOutsideItsRangeIsWrongUsage) {
+  SeededRandom random;
+  const Observations observations = observe(random, {});
+  for (const double gamma : {0.0, -0.5, 1.01, std::numeric_limits<double>::quiet_NaN()}) {
+    FitOptions options;
+    options.containment = gamma;
+    const auto result = fit_patch(observations, options);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::usage);
+  }
+}
+
+}  // namespace
+}  // namespace patchlab
