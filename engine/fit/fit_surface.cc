@@ -1,5 +1,6 @@
 #include "engine/fit/fit_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,7 @@ namespace patchlab {
 namespace {
 
 constexpr double tukey_constant = 4.685;  // 95 % efficiency on clean normal data
+constexpr int trial_iterations = 6;       // of each of several starts, before the best goes on
 
 double tukey_loss(double F) {
   const double inside = 1.0 - std::min(F * F / (tukey_constant * tukey_constant), 1.0);
@@ -113,13 +115,20 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const 
 SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model,
                        const std::vector<SurfaceState>& starts, const SurfaceFitOptions& options,
                        const std::optional<VertexPrior>& prior) {
+  if (starts.size() == 1) return fit_surface(samples, model, starts.front(), options, prior);
+  SurfaceFitOptions brief = options;
+  brief.solver.max_iterations = std::min(options.solver.max_iterations, trial_iterations);
   SurfaceFit best;
   best.cost = std::numeric_limits<double>::infinity();
   int iterations = 0;
   for (const SurfaceState& start : starts) {
-    SurfaceFit fit = fit_surface(samples, model, start, options, prior);
+    SurfaceFit fit = fit_surface(samples, model, start, brief, prior);
     iterations += fit.iterations;
     if (fit.cost < best.cost) best = std::move(fit);
+  }
+  if (!best.converged) {
+    best = fit_surface(samples, model, best.state, options, prior);
+    iterations += best.iterations;
   }
   best.iterations = iterations;
   return best;

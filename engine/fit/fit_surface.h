@@ -43,7 +43,7 @@ struct SurfaceFitOptions {
 SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const SurfaceState& start,
                        const SurfaceFitOptions& options,
                        const std::optional<VertexPrior>& prior = std::nullopt);
-// The best of a model's starts by its final cost.
+// The best of a model's starts: each is tried for a few iterations, the one of least cost goes on.
 SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model,
                        const std::vector<SurfaceState>& starts, const SurfaceFitOptions& options,
                        const std::optional<VertexPrior>& prior = std::nullopt);
