@@ -89,6 +89,20 @@ double chi_square(const Samples& samples, const SurfaceModel& model, const Surfa
   return chi2;
 }
 
+// The first two, and of the others those that are better than both as they stand.
+std::vector<SurfaceState> worth_trying(const Samples& samples, const SurfaceModel& model,
+                                       const std::vector<SurfaceState>& starts, Distance distance) {
+  std::vector<SurfaceState> tried;
+  double least = std::numeric_limits<double>::infinity();
+  for (const SurfaceState& start : starts) {
+    const double chi2 = starts.size() > 2 ? chi_square(samples, model, start, distance) : 0.0;
+    if (tried.size() >= 2 && !(chi2 < least)) continue;
+    tried.push_back(start);
+    least = std::min(least, chi2);
+  }
+  return tried;
+}
+
 }  // namespace
 
 double tukey_weight(double F) {
@@ -121,7 +135,7 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model,
   SurfaceFit best;
   best.cost = std::numeric_limits<double>::infinity();
   int iterations = 0;
-  for (const SurfaceState& start : starts) {
+  for (const SurfaceState& start : worth_trying(samples, model, starts, options.distance)) {
     SurfaceFit fit = fit_surface(samples, model, start, brief, prior);
     iterations += fit.iterations;
     if (fit.cost < best.cost) best = std::move(fit);

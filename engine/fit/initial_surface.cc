@@ -105,6 +105,43 @@ SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) 
   return state;
 }
 
+// Circular cylinders along the principal axes of the points, each by an algebraic circle across its axis:
+// what points all round a can or a pipe ask for, where no height field exists. z_l towards the viewpoint.
+std::vector<SurfaceState> algebraic_cylinders(const Samples& samples) {
+  const Vector3d mean = weighted_mean(samples);
+  Matrix3d scatter = Matrix3d::Zero();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    scatter += samples.robust[i] * (samples.q[i] - mean) * (samples.q[i] - mean).transpose();
+  }
+  const Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(scatter).eigenvectors();
+  const double size = extent(samples);
+  std::vector<SurfaceState> cylinders;
+  for (int i = 0; i < 3; ++i) {
+    Eigen::Matrix<double, 3, 2> across;
+    across << axes.col((i + 1) % 3), axes.col((i + 2) % 3);
+    Matrix3d A = Matrix3d::Zero();
+    Vector3d b = Vector3d::Zero();
+    for (std::size_t j = 0; j < samples.size(); ++j) {
+      const Vector2d u = across.transpose() * (samples.q[j] - mean) / size;
+      A += samples.robust[j] * u.homogeneous() * u.homogeneous().transpose();
+      b += samples.robust[j] * u.squaredNorm() * u.homogeneous();
+    }
+    const Vector3d solution = A.completeOrthogonalDecomposition().solve(b);
+    const Vector2d m = 0.5 * size * solution.head<2>();
+    const double radius = std::sqrt(std::max(size * size * solution[2] + m.squaredNorm(), 1e-300));
+    const Vector3d centre = mean + across * m;
+    const Vector2d towards = across.transpose() * (samples.viewpoint(0) - centre);
+    SurfaceState state;
+    state.R.col(0) = axes.col(i);
+    state.R.col(2) = across * (towards.norm() > 0.0 ? Vector2d(towards.normalized()) : Vector2d(1.0, 0.0));
+    state.R.col(1) = state.R.col(2).cross(state.R.col(0));
+    state.k = {-1.0 / radius, 0.0};
+    state.c = centre + radius * state.R.col(2);
+    cylinders.push_back(state);
+  }
+  return cylinders;
+}
+
 SurfaceState quarter_turned(const SurfaceState& state) {
   SurfaceState turned = state;
   turned.R.col(0) = state.R.col(1);
@@ -175,7 +212,13 @@ std::vector<SurfaceState> starts(const Samples& samples, const SurfaceModel& mod
       return {with_k(quadratic, mean_curvature), algebraic_sphere(samples, quadratic)};
     case ModelKind::circular_paraboloid:
       return {with_k(quadratic, mean_curvature)};
-    case ModelKind::circular_cylinder:
+    case ModelKind::circular_cylinder: {
+      std::vector<SurfaceState> all = {with_k(quadratic, quadratic.k[1]),
+                                       with_k(quarter_turned(quadratic), quadratic.k[0])};
+      const std::vector<SurfaceState> closed = algebraic_cylinders(samples);
+      all.insert(all.end(), closed.begin(), closed.end());
+      return all;
+    }
     case ModelKind::cylindric_paraboloid:
       return {with_k(quadratic, quadratic.k[1]), with_k(quarter_turned(quadratic), quadratic.k[0])};
     case ModelKind::paraboloid:

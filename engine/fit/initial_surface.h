@@ -27,7 +27,7 @@ Quadric quadric_through(const Samples& samples, const SurfaceState& frame,
 double quadric_residual(const Quadric& quadric, const Samples& samples, std::size_t i);
 
 // The states from which a model's fit is tried; the lower exact cost is kept. Both axes for the cylindric
-// ones (method M1), the algebraic sphere beside the height field for spheres.
+// ones (method M1), algebraic spheres and cylinders beside the height field for those.
 std::vector<SurfaceState> starts(const Samples& samples, const SurfaceModel& model,
                                  const SurfaceState& quadratic);
 

@@ -44,7 +44,9 @@ void apex_over_centroid(Placed& placed, const Ingredients& from, const PatchPlan
   const Dual3 w = {is_cylinder(plan) ? constant(0.0) : Dual(-from.mean[0]), Dual(-from.mean[1]),
                    Dual(-from.mean[2])};
   const Dual3 towards = {Dual(kappa * w[0]), Dual(kappa * w[1]), Dual(1.0 + kappa * w[2])};  // z + kappa w
-  const Dual n = sqrt(dot(towards, towards));
+  const Dual squared = dot(towards, towards);
+  if (squared.value() < 0.01) return;  // points all round: their centroid is at the centre
+  const Dual n = sqrt(squared);
   const Dual along = (2.0 * w[2] + kappa * dot(w, w)) / (1.0 + n);
   placed.c = scaled({w[0], w[1], Dual(w[2] - along)}, Dual(-1.0 / n));
   placed.z = scaled(towards, Dual(1.0 / n));

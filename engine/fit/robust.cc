@@ -45,9 +45,12 @@ void keep_quadric_inliers(Samples& samples, std::uint64_t seed) {
       best = quadric;
     }
   }
+  std::size_t inliers = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples.robust[i] = std::abs(quadric_residual(best, samples, i)) <= flag_limit ? 1.0 : 0.0;
+    inliers += samples.robust[i] > 0.0 ? 1 : 0;
   }
+  if (2 * inliers < samples.size()) samples.robust.assign(samples.size(), 1.0);  // no quadric holds them
 }
 
 double robust_scale(const Samples& samples, const SurfaceFit& fit) {

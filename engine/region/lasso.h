@@ -1,5 +1,5 @@
-// Selecting points by a lasso: a closed contour on the screen and the camera it was drawn with. What it yields depends on
-// nothing else: not on GL, UI scale, point budget or thread count.
+// Selecting points by a lasso: a closed contour on the screen and the camera it was drawn with. What it
+// yields depends on nothing else: not on GL, UI scale, point budget or thread count.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,18 +11,20 @@
 
 namespace patchlab {
 
-// The camera of a view, as the journal stores it. Looks along -z of its own frame (the OpenGL convention), x right, y up.
+// The camera of a view, as the journal stores it. Looks along -z of its own frame (the OpenGL convention), x
+// right, y up.
 struct ViewCamera {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();      // m, in the frame of the points
-  std::array<double, 4> quaternion_xyzw = {0, 0, 0, 1};    // world_from_view
-  double fov_y = 0.8;                                      // vertical field of view, rad (perspective)
-  double near_plane = 0.01;                                // m: nothing nearer is selected
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();    // m, in the frame of the points
+  std::array<double, 4> quaternion_xyzw = {0, 0, 0, 1};  // world_from_view
+  double fov_y = 0.8;                                    // vertical field of view, rad (perspective)
+  double near_plane = 0.01;                              // m: nothing nearer is selected
   bool perspective = true;
-  double height = 1.0;                                     // m, world height of the viewport (orthographic)
-  std::array<int, 2> viewport = {1280, 800};               // px
+  double height = 1.0;                        // m, world height of the viewport (orthographic)
+  std::array<int, 2> viewport = {1280, 800};  // px
 };
 
-// A point in viewport pixels, x right, y down from the upper left corner, with its depth along the view axis in metre.
+// A point in viewport pixels, x right, y down from the upper left corner, with its depth along the view axis
+// in metre.
 struct Projected {
   double x, y, depth;
 };
@@ -30,9 +32,9 @@ Projected project(const ViewCamera& camera, const Eigen::Vector3d& point);
 
 enum class SelectMode { set, add, subtract, intersect };
 
-// Ids (ascending) of the finite points inside the contour (viewport pixels, even-odd rule), in front of the near plane.
-// Precondition: none; fewer than three vertices select nothing. Exact: the raster mask decides only whole cells, points of
-// edge cells are tested against the polygon itself.
+// Ids (ascending) of the finite points inside the contour (viewport pixels, even-odd rule), in front of the
+// near plane. Precondition: none; fewer than three vertices select nothing. Exact: the raster mask decides
+// only whole cells, points of edge cells are tested against the polygon itself.
 std::vector<std::uint32_t> select_lasso(const Scan& scan, const ViewCamera& camera,
                                         const std::vector<Eigen::Vector2d>& contour);
 
@@ -40,7 +42,7 @@ std::vector<std::uint32_t> select_lasso(const Scan& scan, const ViewCamera& came
 bool inside_polygon(const std::vector<Eigen::Vector2d>& contour, double x, double y);
 
 // Set algebra on ascending ids.
-std::vector<std::uint32_t> combine(const std::vector<std::uint32_t>& before, const std::vector<std::uint32_t>& selected,
-                                   SelectMode mode);
+std::vector<std::uint32_t> combine(const std::vector<std::uint32_t>& before,
+                                   const std::vector<std::uint32_t>& selected, SelectMode mode);
 
 }  // namespace patchlab

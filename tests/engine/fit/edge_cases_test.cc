@@ -2,6 +2,8 @@
 // confident wrong answer.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -209,6 +211,32 @@ TEST(EdgeCase, OutlineOfASphereEndsAtItsRadius) {
   ASSERT_TRUE(result);
   EXPECT_TRUE(validate(result->patch));
   EXPECT_LE(result->patch.parameters[0] * std::abs(result->patch.parameters[1]), 1.0);
+}
+
+TEST(EdgeCase, PointsAllRoundACanGiveItsRadius) {
+  SeededRandom random;
+  for (const double half_length : {0.03, 0.05, 0.2}) {
+    Observations observations;
+    const Vector3d axis = random.unit3(), across = axis.unitOrthogonal(), other = axis.cross(across);
+    for (int i = 0; i < 800; ++i) {
+      const double angle = random.uniform(0.0, 6.28318530717959);
+      const Vector3d n = std::cos(angle) * across + std::sin(angle) * other;
+      const double along = random.uniform(-half_length, half_length);
+      observations.points.push_back(Vector3d(0.1, 0.0, 1.0) + along * axis + 0.05 * n +
+                                    5e-4 * random.normal3());
+      observations.covariances.push_back(2.5e-7 * Matrix3d::Identity());
+    }
+    for (const bool robust : {false, true}) {
+      FitOptions options;
+      options.surface = SurfaceRequest::circular_cylinder;
+      options.robust = robust;
+      const auto result = fit_patch(observations, options);
+      ASSERT_TRUE(result) << result.error().message;
+      EXPECT_NEAR(1.0 / std::abs(result->patch.parameters[2]), 0.05, 2e-4);
+      EXPECT_NE(find(result->report.warnings, "bound_clamped"), nullptr);
+      EXPECT_TRUE(validate(result->patch));
+    }
+  }
 }
 
 TEST(EdgeCase, SelfOccludedBallIsSaidToBeSeenInPart) {
