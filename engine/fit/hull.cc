@@ -12,7 +12,7 @@
 namespace patchlab {
 namespace {
 
-double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+double turn_between(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
 // A convex polygon as lines, for dropping edges.
 struct Line {
@@ -28,7 +28,7 @@ Vector2d meet(const Line& a, const Line& b) {
 double cost_of_dropping(const std::vector<Line>& lines, std::size_t i) {
   const std::size_t n = lines.size();
   const Line &before = lines[(i + n - 1) % n], &after = lines[(i + 1) % n];
-  const double turn = wrapped(after.phi - before.phi);
+  const double turn = turn_between(after.phi - before.phi);
   if (turn <= 1e-6 || turn >= std::numbers::pi - 1e-3) return std::numeric_limits<double>::infinity();
   const Vector2d tip = meet(before, after), p = meet(before, lines[i]), q = meet(lines[i], after);
   return 0.5 * std::abs((p - tip).x() * (q - tip).y() - (p - tip).y() * (q - tip).x());
