@@ -7,9 +7,7 @@
 
 namespace patchlab {
 
-double chi_square_cdf(double x, double dof) {
-  return boost::math::cdf(boost::math::chi_squared(dof), x);
-}
+double chi_square_cdf(double x, double dof) { return boost::math::cdf(boost::math::chi_squared(dof), x); }
 
 double chi_square_p_value(double x, double dof) {
   return boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), x));

@@ -36,7 +36,8 @@ Error unreadable(const std::string& name, const std::string& why) {
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MB"; }
 
-Result<Bytes> read_to_end(int descriptor, const std::string& name, std::uint64_t limit, std::size_t expected) {
+Result<Bytes> read_to_end(int descriptor, const std::string& name, std::uint64_t limit,
+                          std::size_t expected) {
   Bytes bytes(expected);
   std::size_t used = 0;
   for (;;) {
@@ -65,7 +66,8 @@ bool write_all(int descriptor, std::string_view bytes) {
 // A device or a pipe, which no new file may replace.
 Result<void> write_in_place(const std::filesystem::path& file, std::string_view bytes) {
   Descriptor descriptor(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
-  const bool written = descriptor.number() >= 0 && write_all(descriptor.number(), bytes) && descriptor.close();
+  const bool written =
+      descriptor.number() >= 0 && write_all(descriptor.number(), bytes) && descriptor.close();
   if (!written) return Error{ErrorCode::unwritable, file.string() + ": cannot be written: " + reason() + "."};
   return {};
 }
@@ -82,7 +84,8 @@ Result<Bytes> read_file(const std::filesystem::path& file, std::uint64_t limit) 
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size == 0) return unreadable(name, "is empty.");
   if (size > limit) {
-    return unreadable(name, "holds " + megabytes(size) + ", more than the limit of " + megabytes(limit) + ".");
+    return unreadable(name,
+                      "holds " + megabytes(size) + ", more than the limit of " + megabytes(limit) + ".");
   }
   Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (descriptor.number() < 0) return unreadable(name, "cannot be opened: " + reason() + ".");
@@ -91,8 +94,10 @@ Result<Bytes> read_file(const std::filesystem::path& file, std::uint64_t limit) 
 
 Result<void> write_file(const std::filesystem::path& file, std::string_view bytes) {
   if (file == "-") {
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0;
-    if (!written) return Error{ErrorCode::unwritable, "standard output: cannot be written: " + reason() + "."};
+    const bool written =
+        std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0;
+    if (!written)
+      return Error{ErrorCode::unwritable, "standard output: cannot be written: " + reason() + "."};
     return {};
   }
   struct stat status {};
@@ -100,20 +105,23 @@ Result<void> write_file(const std::filesystem::path& file, std::string_view byte
   if (exists && !S_ISREG(status.st_mode)) return write_in_place(file, bytes);
   std::error_code no_link;
   const std::filesystem::path target = exists ? std::filesystem::canonical(file, no_link) : file;
-  if (no_link) return Error{ErrorCode::unwritable, file.string() + ": cannot be found: " + no_link.message() + "."};
+  if (no_link)
+    return Error{ErrorCode::unwritable, file.string() + ": cannot be found: " + no_link.message() + "."};
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   std::string temporary = target.string() + ".XXXXXX";
   Descriptor descriptor(::mkostemp(temporary.data(), O_CLOEXEC));
   const auto fail = [&](const std::string& what) {
     const std::string why = reason();
     if (descriptor.number() >= 0) ::unlink(temporary.c_str());
-    return Error{ErrorCode::unwritable, file.string() + ": cannot " + what + ": " + why + "; nothing was written."};
+    return Error{ErrorCode::unwritable,
+                 file.string() + ": cannot " + what + ": " + why + "; nothing was written."};
   };
   if (descriptor.number() < 0) return fail("be created");
   const mode_t mask = ::umask(0);
   ::umask(mask);
   if (!write_all(descriptor.number(), bytes)) return fail("be written");
-  if (::fchmod(descriptor.number(), 0666 & ~mask) != 0 || ::fsync(descriptor.number()) != 0) return fail("be saved");
+  if (::fchmod(descriptor.number(), 0666 & ~mask) != 0 || ::fsync(descriptor.number()) != 0)
+    return fail("be saved");
   if (::rename(temporary.c_str(), target.c_str()) != 0) return fail("be put in place");
   Descriptor parent(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (parent.number() >= 0) ::fsync(parent.number());

@@ -13,12 +13,13 @@ namespace patchlab {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// The bytes of a regular file (a directory, pipe or device is refused without opening it) of at most `limit` bytes.
-// The path "-" reads standard input to its end, with the same limit.
+// The bytes of a regular file (a directory, pipe or device is refused without opening it) of at most `limit`
+// bytes. The path "-" reads standard input to its end, with the same limit.
 Result<Bytes> read_file(const std::filesystem::path& file, std::uint64_t limit = std::uint64_t{4} << 30);
 
 // Writes a file so that it appears whole or not at all: temporary file beside it, fsync, rename, fsync of the
-// folder. A link keeps pointing where it did. A device or pipe is written to as it is; the path "-" is standard output.
+// folder. A link keeps pointing where it did. A device or pipe is written to as it is; the path "-" is
+// standard output.
 Result<void> write_file(const std::filesystem::path& file, std::string_view bytes);
 
 // SHA-256 of the bytes as 64 lower-case hexadecimal digits.

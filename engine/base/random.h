@@ -1,5 +1,5 @@
-// Seeded random numbers: the same seed gives the same numbers on every machine (the distributions of Boost.Random
-// are specified, those of the standard library are not).
+// Seeded random numbers: the same seed gives the same numbers on every machine (the distributions of
+// Boost.Random are specified, those of the standard library are not).
 #pragma once
 
 #include <Eigen/Core>

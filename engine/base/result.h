@@ -1,5 +1,5 @@
-// Errors are values: every operation that can fail returns a Result, which holds what was asked for or an Error
-// with a code and a sentence for the user. No exception crosses a room of the engine.
+// Errors are values: every operation that can fail returns a Result, which holds what was asked for or an
+// Error with a code and a sentence for the user. No exception crosses a room of the engine.
 //
 //   Result<Scan> scan = read_scan(file);
 //   if (!scan) return scan.error();
@@ -14,12 +14,12 @@ namespace patchlab {
 
 // What kind of failure it was; the command line turns it into its exit status (exit_status below).
 enum class ErrorCode {
-  usage,         // the request itself is wrong
-  unreadable,    // an input cannot be read or is malformed
-  no_finite_fit, // the points do not determine the patch (too few, collinear, coincident, bad covariance)
-  unwritable,    // an output cannot be written
-  refused,       // an item was refused, the rest was done
-  cancelled,     // the user cancelled
+  usage,          // the request itself is wrong
+  unreadable,     // an input cannot be read or is malformed
+  no_finite_fit,  // the points do not determine the patch (too few, collinear, coincident, bad covariance)
+  unwritable,     // an output cannot be written
+  refused,        // an item was refused, the rest was done
+  cancelled,      // the user cancelled
 };
 
 // `message` is one whole sentence: it names the file or item, what is wrong, where, and what to do.
@@ -28,16 +28,20 @@ struct Error {
   std::string message;
 };
 
-// Exit status of the command line for an error: 1 refused or cancelled, 2 usage, 3 unreadable or no finite fit,
-// 4 unwritable.
+// Exit status of the command line for an error: 1 refused or cancelled, 2 usage, 3 unreadable or no finite
+// fit, 4 unwritable.
 inline int exit_status(ErrorCode code) {
   switch (code) {
-    case ErrorCode::usage: return 2;
+    case ErrorCode::usage:
+      return 2;
     case ErrorCode::unreadable:
-    case ErrorCode::no_finite_fit: return 3;
-    case ErrorCode::unwritable: return 4;
+    case ErrorCode::no_finite_fit:
+      return 3;
+    case ErrorCode::unwritable:
+      return 4;
     case ErrorCode::refused:
-    case ErrorCode::cancelled: return 1;
+    case ErrorCode::cancelled:
+      return 1;
   }
   return 1;
 }

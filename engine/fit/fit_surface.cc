@@ -201,8 +201,7 @@ VertexStart vertex_start(const Samples& samples, const SurfaceFit& fixed) {
   start.state = fixed.state;
   start.state.c = fixed.state.c + fixed.state.R * centre;
   start.state.R = turned_to(fixed.state.R, fixed.state.R * outward_normal(centre, kappa));
-  const double share =
-      0.25 / static_cast<double>(samples.size()) + 0.05 * 0.05;  // method M4
+  const double share = 0.25 / static_cast<double>(samples.size()) + 0.05 * 0.05;  // method M4
   start.prior = {start.state.c, start.state.R.leftCols<2>(), size * std::sqrt(share), size};
   return start;
 }

@@ -8,7 +8,8 @@
 namespace patchlab {
 
 // RANSAC of a quadric (9 points, 80 draws, truncated cost) over the plane of step 1; the robust weights
-// become 1 for its inliers and 0 for the rest, or 1 for all where fewer than half are inliers. Seeded: the same points and seed give the same weights.
+// become 1 for its inliers and 0 for the rest, or 1 for all where fewer than half are inliers. Seeded: the
+// same points and seed give the same weights.
 void keep_quadric_inliers(Samples& samples, std::uint64_t seed);
 
 // How large residuals are in units of the noise model, by their median: 1 where the model holds, less where

@@ -49,8 +49,8 @@ UncertainPose canonical(const UncertainPose& pose);
 // x = first second: a_from_c = compose(a_from_b, b_from_c), r canonical.
 Pose compose(const Pose& a_from_b, const Pose& b_from_c);
 
-// First-order conversions between the covariance of the additive (r, t) and those of others (errata section 8).
-// G with cov_xi = G cov_rt G'.
+// First-order conversions between the covariance of the additive (r, t) and those of others (errata section
+// 8). G with cov_xi = G cov_rt G'.
 Matrix6d right_rot_trans_from_rt(const Pose& pose);  // T = Tbar Exp(xi), xi = (rotation, translation): GTSAM
 Matrix6d left_rot_trans_from_rt(const Pose& pose);   // T = Exp(xi) Tbar
 Matrix6d ros_fixed_axes_from_rt(const Pose& pose);   // (translation, rotation about fixed parent axes): ROS

@@ -12,7 +12,8 @@ namespace patchlab {
 namespace {
 
 using std::numbers::pi;
-constexpr double longest_canonical = pi * (1.0 + 1e-15);  // a vector of length pi must survive its own rounding
+constexpr double longest_canonical =
+    pi * (1.0 + 1e-15);  // a vector of length pi must survive its own rounding
 
 double length(const Vector3d& v) { return std::hypot(v.x(), v.y(), v.z()); }
 

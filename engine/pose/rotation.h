@@ -1,6 +1,6 @@
-// Rotations by the exponential map: Eqs. (2), (44), Appendix II, in the stable forms of errata sections 2 and 3.
+// Rotations by the exponential map: Eqs. (2), (44), Appendix II, in the stable forms of errata 2 and 3.
 //
-// An orientation vector r (radian) stands for the rotation by |r| about r/|r|. It is canonical when |r| <= pi.
+// An orientation vector r (radian) stands for the rotation by |r| about r/|r|. Canonical: |r| <= pi.
 // J_a_b is d a / d b; all Jacobians are 3x3, rows of a, columns of b.
 #pragma once
 
@@ -24,7 +24,7 @@ Matrix3d exp_map(const Vector3d& r);
 // At |r| = pi exactly the component with the largest R_ii is positive.
 Vector3d log_map(const Matrix3d& R);
 
-// R as it should be: accepted when max|R'R - I| <= 1e-9, projected to the nearest rotation up to 1e-3, else an error.
+// R as it should be: accepted when max|R'R - I| <= 1e-9, projected to the nearest up to 1e-3, else an error.
 Result<Matrix3d> nearest_rotation(const Matrix3d& R);
 
 // Jl(r): R(r + dr) = R(Jl dr) R(r) to first order. Jr(r) = Jl(-r): R(r + dr) = R(r) R(Jr dr).

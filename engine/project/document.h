@@ -1,4 +1,5 @@
-// A document: scans, regions and patches with where each came from. A value, cheap to copy (points are shared).
+// A document: scans, regions and patches with where each came from. A value, cheap to copy: points are
+// shared.
 #pragma once
 
 #include <filesystem>
@@ -15,27 +16,27 @@
 namespace patchlab {
 
 struct ScanEntry {
-  std::string id;       // "scan-1"
-  std::string name;     // file name, or what the user called it
-  std::string sha256;   // of the file's bytes
+  std::string id;      // "scan-1"
+  std::string name;    // file name, or what the user called it
+  std::string sha256;  // of the file's bytes
   std::shared_ptr<const Scan> scan;
   NoiseModel noise;
   bool visible = true;
 };
 
 struct RegionEntry {
-  std::string id;       // "region-1"
+  std::string id;  // "region-1"
   std::string name;
-  std::string scan;     // id
+  std::string scan;                                          // id
   std::shared_ptr<const std::vector<std::uint32_t>> points;  // ascending ids
   bool visible = true;
 };
 
 struct PatchEntry {
-  std::string id;       // "patch-1"
+  std::string id;  // "patch-1"
   std::string name;
-  std::string scan;     // id
-  std::string region;   // id
+  std::string scan;    // id
+  std::string region;  // id
   FitOptions options;
   std::shared_ptr<const FitResult> fit;
   // Ids of the scan's points behind fit->report.residuals, in that order.
@@ -55,9 +56,10 @@ const PatchEntry* find_patch(const Document& document, const std::string& id);
 // An id that is not taken yet: "patch-3".
 std::string free_id(const Document& document, const std::string& stem);
 
-// The document's patches as a patch set; `journal` names the file they came from in the provenance. A patch's frame_id is
-// "sensor" where its scan was seen from the origin of its own frame along +z (no viewpoint, or the identity), so that
-// the points are in the sensor's frame; "world" where the scan states another viewpoint.
+// The document's patches as a patch set; `journal` names the file they came from in the provenance. A patch's
+// frame_id is "sensor" where its scan was seen from the origin of its own frame along +z (no viewpoint, or
+// the identity), so that the points are in the sensor's frame; "world" where the scan states another
+// viewpoint.
 PatchSet patch_set(const Document& document, const std::string& journal = {});
 
 }  // namespace patchlab

@@ -1,5 +1,5 @@
-// The scenario family of the calibration (engine/README.md): a random patch of any of the ten types seen by a Kinect, N random points
-// of it, noisy.
+// The scenario family of the calibration (engine/README.md): a random patch of any of the ten types seen by a
+// Kinect, N random points of it, noisy.
 #pragma once
 
 #include <vector>

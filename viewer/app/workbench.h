@@ -45,7 +45,8 @@ class Workbench {
   Workbench(WorkbenchOptions options, std::function<void()> wake);
 
   // In the background. A journal (.patchlab) replaces the session: one of the folder of journals is gone on
-  // with, of one from elsewhere a copy there. A scan joins the session, with a new journal where there is none.
+  // with, of one from elsewhere a copy there. A scan joins the session, with a new journal where there is
+  // none.
   void open(const std::filesystem::path& file);
   void run(Command command);  // quick ones: rename, delete, show
   void undo();

@@ -13,16 +13,18 @@ struct Choice {
   Value value;
 };
 
-constexpr Choice<SurfaceRequest> kSurfaceChoices[] = {{Action::fit_automatic, SurfaceRequest::automatic},
-                                                {Action::fit_paraboloid, SurfaceRequest::paraboloid},
-                                                {Action::fit_plane, SurfaceRequest::plane},
-                                                {Action::fit_sphere, SurfaceRequest::sphere},
-                                                {Action::fit_cylinder, SurfaceRequest::circular_cylinder}};
+constexpr Choice<SurfaceRequest> kSurfaceChoices[] = {
+    {Action::fit_automatic, SurfaceRequest::automatic},
+    {Action::fit_paraboloid, SurfaceRequest::paraboloid},
+    {Action::fit_plane, SurfaceRequest::plane},
+    {Action::fit_sphere, SurfaceRequest::sphere},
+    {Action::fit_cylinder, SurfaceRequest::circular_cylinder}};
 constexpr Choice<SelectMode> kModeChoices[] = {{Action::mode_set, SelectMode::set},
-                                         {Action::mode_add, SelectMode::add},
-                                         {Action::mode_subtract, SelectMode::subtract},
-                                         {Action::mode_intersect, SelectMode::intersect}};
-constexpr Choice<Tool> kToolChoices[] = {{Action::orbit_tool, Tool::orbit}, {Action::lasso_tool, Tool::lasso}};
+                                               {Action::mode_add, SelectMode::add},
+                                               {Action::mode_subtract, SelectMode::subtract},
+                                               {Action::mode_intersect, SelectMode::intersect}};
+constexpr Choice<Tool> kToolChoices[] = {{Action::orbit_tool, Tool::orbit},
+                                         {Action::lasso_tool, Tool::lasso}};
 constexpr Choice<PointColours> kColours[] = {{Action::colour_shading, PointColours::shading},
                                              {Action::colour_photo, PointColours::photo},
                                              {Action::colour_residual, PointColours::residual}};

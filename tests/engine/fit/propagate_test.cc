@@ -62,12 +62,8 @@ TEST_P(ResidualJacobian, AgreesWithDifferencesInChartAndPoint) {
 }
 
 std::string model_name(const testing::TestParamInfo<ModelKind>& model) {
-  constexpr const char* names[] = {"plane",
-                                   "sphere",
-                                   "circular_cylinder",
-                                   "circular_paraboloid",
-                                   "cylindric_paraboloid",
-                                   "paraboloid"};
+  constexpr const char* names[] = {
+      "plane", "sphere", "circular_cylinder", "circular_paraboloid", "cylindric_paraboloid", "paraboloid"};
   return names[static_cast<std::size_t>(model.param)];
 }
 

@@ -13,9 +13,9 @@ namespace patchlab::test {
 namespace {
 
 // k3 of every surface of Table I, both signs.
-const std::vector<Vector3d> both_sided_surfaces = {{3, 5, 0},    {-3, -5, 0}, {-3, 5, 0},  {3, -5, 0}, {0, 4, 0},
-                                        {0, -4, 0},   {4, 4, 0},   {-4, -4, 0}, {0, 0, 0},  {4, 4, 4},
-                                        {-4, -4, -4}, {0, 4, 4},   {0, -4, -4}};
+const std::vector<Vector3d> both_sided_surfaces = {
+    {3, 5, 0},   {-3, -5, 0}, {-3, 5, 0}, {3, -5, 0},   {0, 4, 0}, {0, -4, 0}, {4, 4, 0},
+    {-4, -4, 0}, {0, 0, 0},   {4, 4, 4},  {-4, -4, -4}, {0, 4, 4}, {0, -4, -4}};
 
 Vector2d near_u(Random& random) { return {random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15)}; }
 

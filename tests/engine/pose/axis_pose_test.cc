@@ -84,7 +84,8 @@ TEST(AxisPose, TiltJacobianIsThatOfTheReBasedChart) {
     const auto tilted = [&](const VectorXd& a) -> VectorXd {
       return r_xy(log_map(exp_map(lift(u)) * exp_map(lift(Vector2d(a)))));
     };
-    EXPECT_TRUE(jacobian_matches(J_r_xy_tilt(u), tilted, Vector2d::Zero(), {.step = 1e-4, .tolerance = 1e-9}));
+    EXPECT_TRUE(
+        jacobian_matches(J_r_xy_tilt(u), tilted, Vector2d::Zero(), {.step = 1e-4, .tolerance = 1e-9}));
     EXPECT_LT((J_r_xy_tilt(u) * J_tilt_r_xy(u) - Matrix2d::Identity()).cwiseAbs().maxCoeff(), 1e-13);
   }
 }

@@ -82,7 +82,9 @@ class ProgramTest : public testing::TestWithParam<Look> {
 };
 INSTANTIATE_TEST_SUITE_P(ScalesAndThemes, ProgramTest,
                          testing::Values(Look{1.0f, ThemeChoice::dark}, Look{2.0f, ThemeChoice::light}),
-                         [](const auto& look) { return look.param.scale == 1.0f ? "Dark" : "LightTwiceAsLarge"; });
+                         [](const auto& look) {
+                           return look.param.scale == 1.0f ? "Dark" : "LightTwiceAsLarge";
+                         });
 
 TEST_P(ProgramTest, FourActionsMakeAKeptSphere) {
   program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nwait\nkey Enter\n");

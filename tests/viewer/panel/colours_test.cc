@@ -16,7 +16,9 @@ TEST(Contrast, IsTwentyOneForBlackOnWhiteAndOneForEqual) {
 
 class ThemeTest : public testing::TestWithParam<ThemeChoice> {};
 INSTANTIATE_TEST_SUITE_P(Both, ThemeTest, testing::Values(ThemeChoice::dark, ThemeChoice::light),
-                         [](const auto& choice) { return choice.param == ThemeChoice::dark ? "Dark" : "Light"; });
+                         [](const auto& choice) {
+                           return choice.param == ThemeChoice::dark ? "Dark" : "Light";
+                         });
 
 TEST_P(ThemeTest, EveryTextIsReadableOnEveryGroundItLiesOn) {
   const Theme t = theme(GetParam());
