@@ -1,3 +1,4 @@
+#include <map>
 #include <memory>
 #include <numeric>
 
@@ -91,6 +92,34 @@ Result<int> fit(const FitRequest& request) {
   return request.require_accepted && !patch.fit->report.accepted ? exit_status(ErrorCode::refused) : 0;
 }
 
+// p_value=1e-6, residual_rms=0.02 ...: the limits of the validation, named as in the journal.
+void add_limits(CLI::App& app, ValidationLimits& limits) {
+  const std::map<std::string, double ValidationLimits::*> names = {
+      {"p_value", &ValidationLimits::p_value},
+      {"residual_rms", &ValidationLimits::residual_rms},
+      {"coverage", &ValidationLimits::coverage},
+      {"curvature_extent", &ValidationLimits::curvature_extent}};
+  app.add_option_function<std::vector<std::string>>(
+         "--limit",
+         [names, &limits](const std::vector<std::string>& settings) {
+           for (const std::string& setting : settings) {
+             const std::size_t equals = setting.find('=');
+             const auto known = names.find(setting.substr(0, equals));
+             double value = 0.0;
+             if (equals == std::string::npos || known == names.end() ||
+                 !CLI::detail::lexical_cast(setting.substr(equals + 1), value)) {
+               throw CLI::ValidationError("--limit", setting +
+                                                         " is not one of p_value=, residual_rms= (m), "
+                                                         "coverage=, curvature_extent= and a number");
+             }
+             limits.*known->second = value;
+           }
+         },
+         "a limit of the validation: NAME=VALUE, NAME of p_value, residual_rms (m), coverage, curvature_extent")
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
 void add_fit_options(CLI::App& app, FitOptions& options) {
   add_named(app, "--surface", options.surface, surface_request_from_name,
             "auto|paraboloid|plane|sphere|circular_cylinder|elliptic_paraboloid|hyperbolic_paraboloid|"
@@ -102,6 +131,7 @@ void add_fit_options(CLI::App& app, FitOptions& options) {
   add_named(app, "--method", options.method, fit_method_from_name, "calibrated|paper", "how to fit");
   add_named(app, "--bounds", options.bounds, bounds_method_from_name, "extent|paper",
             "how to bound; follows the method where it is not given");
+  add_limits(app, options.limits);
   add_named(app, "--robust", options.robust, on_off, "on|off", "set outliers aside");
 }
 

@@ -64,6 +64,12 @@ std::string report_rows(const FitReport& report) {
   text += "  verdict      " + report.verdict + "\n";
   for (const Finding& reason : report.reasons) text += "  reason       " + reason.sentence + "\n";
   for (const Finding& warning : report.warnings) text += "  warning      " + warning.sentence + "\n";
+  if (report.candidates.size() < 2) return text;
+  text += "  compared     chi2 + p ln N; the least is taken\n";
+  for (const Candidate& candidate : report.candidates) {
+    text += format("    %-24s %10.1f  %s\n", words(name(candidate.surface)).c_str(), candidate.bic,
+                   candidate.reason.c_str());
+  }
   return text;
 }
 

@@ -53,6 +53,15 @@ void log_bound(Workbench& work) {
   work.log.push_back("6-9. " + std::string(name(work.plan.type->boundary)) + " with d = " + sizes);
 }
 
+std::string least_areas(const std::vector<OutlineCandidate>& outlines) {
+  std::string text;
+  for (const OutlineCandidate& outline : outlines) {
+    text += (text.empty() ? "; least areas, best first: " : ", ") + std::string(name(outline.boundary)) +
+            line(" %.4g m^2", outline.area);
+  }
+  return text;
+}
+
 bool by_paper(const Workbench& work) { return work.options.method == FitMethod::paper; }
 
 const SurfaceFit* plane_of_step_1(const Workbench& work) {
@@ -195,7 +204,7 @@ void choose_boundary(Workbench& work) {
   work.plan.scale =
       work.bounds == BoundsMethod::extent ? extent_scale(work.containment) : paper_scale(work.containment);
   work.log.push_back("4. boundary: " + std::string(name(boundary)) +
-                     line(", containment %.4g", work.containment));
+                     line(", containment %.4g", work.containment) + least_areas(work.outlines));
 }
 
 void project_points(Workbench& work) {

@@ -33,6 +33,19 @@ ordered_json findings_json(const std::vector<Finding>& findings) {
   return array;
 }
 
+ordered_json candidates_json(const std::vector<Candidate>& candidates) {
+  ordered_json array = ordered_json::array();
+  for (const Candidate& candidate : candidates) {
+    array.push_back({{"surface", name(candidate.surface)},
+                     {"chi2", candidate.chi2},
+                     {"dof", candidate.dof},
+                     {"bic", candidate.bic},
+                     {"chosen", candidate.chosen},
+                     {"reason", candidate.reason}});
+  }
+  return array;
+}
+
 ordered_json fit_json(const FitSummary& fit) {
   ordered_json object = {{"method", name(fit.method)},
                          {"robust", fit.robust},
@@ -48,6 +61,7 @@ ordered_json fit_json(const FitSummary& fit) {
                          {"accepted", fit.accepted},
                          {"reasons", findings_json(fit.reasons)}};
   if (!fit.warnings.empty()) object["warnings"] = findings_json(fit.warnings);
+  if (fit.candidates.size() > 1) object["candidates"] = candidates_json(fit.candidates);
   return object;
 }
 
@@ -100,6 +114,19 @@ std::vector<Finding> findings_from_json(const JsonPlace& place) {
   return findings;
 }
 
+std::vector<Candidate> candidates_from_json(const JsonPlace& place) {
+  std::vector<Candidate> candidates;
+  for (const JsonPlace& item : place.items()) {
+    const JsonPlace surface = item["surface"];
+    const std::optional<SurfaceType> known = surface_from_name(surface.text());
+    if (!known) surface.fail("\"" + surface.text() + "\" is not a surface that patchlab knows");
+    candidates.push_back({known.value_or(SurfaceType::plane), item["chi2"].number(),
+                          static_cast<int>(item["dof"].whole_number(INT_MAX)), item["bic"].number(),
+                          item["chosen"].boolean(), item["reason"].text()});
+  }
+  return candidates;
+}
+
 FitSummary fit_from_json(const JsonPlace& place) {
   FitSummary fit;
   const JsonPlace method = place["method"];
@@ -119,6 +146,7 @@ FitSummary fit_from_json(const JsonPlace& place) {
   fit.accepted = place["accepted"].boolean();
   fit.reasons = findings_from_json(place["reasons"]);
   if (const auto warnings = place.find("warnings")) fit.warnings = findings_from_json(*warnings);
+  if (const auto candidates = place.find("candidates")) fit.candidates = candidates_from_json(*candidates);
   return fit;
 }
 
@@ -188,7 +216,8 @@ FitSummary::FitSummary(const FitReport& report)
       coverage(report.coverage),
       accepted(report.accepted),
       reasons(report.reasons),
-      warnings(report.warnings) {}
+      warnings(report.warnings),
+      candidates(report.candidates) {}
 
 Result<std::string> write_patch_set(const PatchSet& set) {
   for (const PatchRecord& record : set.patches) {

@@ -41,6 +41,8 @@ struct FitSummary {
   bool accepted = false;
   std::vector<Finding> reasons;   // why it was not accepted; one without a name holds a plain sentence
   std::vector<Finding> warnings;  // written only where there are any
+  std::vector<Candidate>
+      candidates;  // the surfaces that were compared, best first; written where there were several
 };
 
 struct PatchRecord {
