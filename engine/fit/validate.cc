@@ -260,11 +260,11 @@ std::string verdict(const FitReport& report) {
 
 double coverage(const Patch& patch, const std::vector<Vector3d>& points_patch,
                 const std::vector<double>& weights) {
-  constexpr double points_per_cell = 8.0;
+  constexpr double points_per_cell = 12.0, most_cells = 50.0;
   const Boundary bound = boundary(patch);
   const auto used =
       static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; }));
-  const double cells = std::clamp(used / points_per_cell, 4.0, 2500.0);
+  const double cells = std::clamp(used / points_per_cell, 4.0, most_cells);
   const double side = std::sqrt(area(bound) / cells);
   Vector2d reach = extent(bound);
   for (std::size_t i = 0; i < points_patch.size(); ++i) {
