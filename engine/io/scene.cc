@@ -22,6 +22,11 @@ Camera camera_from_json(const JsonPlace& place) {
   camera.cx = place["cx"].number();
   camera.cy = place["cy"].number();
   camera.pose = viewpoint_from_json(place["pose"]);
+  if (const auto step = place.find("depth_step")) camera.depth_step = step->number();
+  if (const auto share = place.find("missing")) camera.missing = share->number();
+  if (camera.depth_step < 0.0) place.fail("has a depth_step below zero");
+  if (camera.missing < 0.0 || camera.missing >= 1.0)
+    place.fail("has a share of missing returns outside [0, 1)");
   if (camera.width == 0 || camera.height == 0) place.fail("has no pixels");
   if (camera.fx <= 0.0 || camera.fy <= 0.0) place.fail("has a focal length (fx, fy) that is not positive");
   return camera;

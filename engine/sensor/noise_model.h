@@ -7,6 +7,10 @@
 //                                   f px, baseline m, standard deviations in px; Sigma = J diag(p^2, p^2,
 //                                   d^2) J'
 //   kinect1                         the stereo model above with the paper's Kinect numbers
+//   khoshelham nguyen kinect2 azure_kinect realsense_d435 ...   presets of depth cameras (noise_presets.h)
+//   lidar:range=0.02,angle=0.00087  sigma of the range, m, and of the direction, rad:
+//                                   Sigma = range^2 w w' + r^2 angle^2 (I - w w'), w the direction, r the
+//                                   range
 //   isotropic:0.002                 the same standard deviation in every direction, m
 //   estimated:0.002                 isotropic, as default_noise_model found it in the scan; marked as assumed
 // noise_help() lists each with its formula and the source of its numbers.
@@ -28,6 +32,17 @@ struct StereoNoise {
   double pointing = 0.35;   // standard deviation of a pixel coordinate, px
   double disparity = 0.17;  // standard deviation of a disparity, px
 };
+// A depth camera: the error of the depth moves a point along its ray, that of the pixel across the optical
+// axis: Sigma = sigma_z^2 (p/z)(p/z)' + sigma_l^2 diag(1, 1, 0), where at depth z sigma_z = constant + linear
+// z + quadratic (z - nearest)^2 + power_1_5 z^1.5, sigma_l = lateral + lateral_z z.
+struct DepthNoise {
+  double constant = 0.0, linear = 0.0, quadratic = 0.0, nearest = 0.0, power_1_5 = 0.0;  // m and powers of m
+  double lateral = 0.0, lateral_z = 0.0;                                                 // m, and 1
+};
+struct LidarNoise {
+  double range = 0.02;     // standard deviation of a range, m
+  double angle = 0.00087;  // standard deviation of a direction about each of two axes, rad
+};
 struct IsotropicNoise {
   double sigma = 0.001;  // m
 };
@@ -35,7 +50,7 @@ struct NoiseFromFile {};
 
 struct NoiseModel {
   std::string specification;  // as asked for
-  std::variant<StereoNoise, IsotropicNoise, NoiseFromFile> kind;
+  std::variant<StereoNoise, DepthNoise, LidarNoise, IsotropicNoise, NoiseFromFile> kind;
   bool assumed = false;  // true where nobody asked for it: said wherever it shows
 
   bool from_file() const { return std::holds_alternative<NoiseFromFile>(kind); }

@@ -1,6 +1,7 @@
 #include "engine/sensor/range_camera.h"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 #include <limits>
 
 #include "engine/base/random.h"
@@ -24,6 +25,12 @@ Vector3d coloured(const Matrix3d& covariance, const Vector3d& white) {
   const Eigen::LDLT<Matrix3d> factors(covariance);
   const Vector3d scaled = factors.vectorD().cwiseMax(0.0).cwiseSqrt().cwiseProduct(white);
   return factors.transpositionsP().transpose() * (factors.matrixL() * scaled);
+}
+
+// As a camera writes it whose depths are whole numbers of a step: moved along the ray.
+Vector3d quantised(const Vector3d& point_sensor, double step) {
+  if (step <= 0.0) return point_sensor;
+  return point_sensor * (step * std::round(point_sensor.z() / step) / point_sensor.z());
 }
 
 Scan empty_scan(const Camera& camera) {
@@ -53,15 +60,16 @@ Scan simulate_scan(const Camera& camera, const CastRay& cast, const NoiseModel& 
   Scan scan = empty_scan(camera);
   std::size_t pixel = 0;
   for (std::uint32_t row = 0; row < camera.height; ++row) {
-    Random random(row_seed(seed, row));
+    Random random(row_seed(seed, row)), lost(row_seed(~seed, row));
     for (std::uint32_t column = 0; column < camera.width; ++column, ++pixel) {
       const Vector3d white = random.normal3();
+      const bool missing = lost.uniform() < camera.missing;
       const Vector3d direction_sensor = pixel_direction(camera, column, row);
       const std::optional<Hit> hit = cast(origin_world, R_world_sensor * direction_sensor);
-      if (!hit) continue;
+      if (!hit || missing) continue;
       const Vector3d true_sensor = hit->s * direction_sensor;
-      const Vector3d measured_sensor =
-          true_sensor + coloured(covariance_in_sensor(noise, true_sensor), white);
+      const Vector3d measured_sensor = quantised(
+          true_sensor + coloured(covariance_in_sensor(noise, true_sensor), white), camera.depth_step);
       scan.positions[pixel] = (R_world_sensor * measured_sensor + origin_world).cast<float>();
       scan.finite[pixel] = 1;
       scan.labels[pixel] = hit->object + 1;

@@ -17,6 +17,8 @@ struct Camera {
   std::uint32_t height = 480;
   double fx = 525.0, fy = 525.0, cx = 319.5, cy = 239.5;  // px
   Viewpoint pose;                                         // world_from_camera; z forward, x right, y down
+  double depth_step = 0.0;  // m: measured depths are multiples of it, along the ray; 0: they are not
+  double missing = 0.0;     // share of the pixels that give no return though something is there
 };
 
 // The nearest surface along origin + s direction (world frame, s > 0): s and which object it is.

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -54,9 +57,9 @@ TEST(NoiseModel, PlainModelsAreRead) {
 }
 
 TEST(NoiseModel, WrongSpecificationsAreUsageErrorsThatSayWhatIsKnown) {
-  EXPECT_THAT(refusal("kinect9"), HasSubstr("the models are from_file, stereo, kinect1, isotropic"));
+  EXPECT_THAT(refusal("kinect9"), HasSubstr("the models are from_file, stereo, lidar, isotropic"));
   EXPECT_THAT(refusal(""), HasSubstr("the models are"));
-  EXPECT_THAT(refusal("stereo:g=1"), HasSubstr("takes f, baseline, pointing and disparity"));
+  EXPECT_THAT(refusal("stereo:g=1"), HasSubstr("the model takes f, baseline, pointing, disparity"));
   EXPECT_THAT(refusal("stereo:f=1,f=2"), HasSubstr("'f' is given twice"));
   EXPECT_THAT(refusal("kinect1:f=1"), HasSubstr("takes no parameters"));
   for (const char* number : {"", "0", "-1", "nan", "inf", "1e999", "one", "1 ", "1px", "0x1"}) {
@@ -81,6 +84,44 @@ TEST(StereoNoise, AgreesWithTheWorkedExample) {
   EXPECT_NEAR(sigma(2), 4.70e-3, 0.005e-3);
 }
 
+// Standard deviations along the ray at 1, 2 and 4 m in the middle of the picture, as printed in the sources'
+// units.
+TEST(DepthNoise, AgreesWithTheNumbersOfItsSources) {
+  const auto depth_sigma = [](const char* specification, double z) {
+    return std::sqrt(covariance_in_sensor(model(specification), {0.0, 0.0, z})(2, 2));
+  };
+  const std::pair<const char*, std::array<double, 3>> table[] = {
+      {"kinect1", {0.0043, 0.0173, 0.069}},
+      {"khoshelham", {0.0014, 0.0057, 0.0228}},
+      {"nguyen", {0.0019, 0.0061, 0.0258}},
+      {"realsense_d435", {0.0038, 0.0151, 0.0604}}};
+  for (const auto& [name, sigmas] : table) {
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(depth_sigma(name, std::exp2(i)), sigmas[i], 0.00005 + 0.002 * sigmas[i]) << name;
+  }
+  // 1.5 - 0.5 z + 0.3 z^2 + 0.1 z^1.5 (1/4) mm at z = 4: 1.5 - 2 + 4.8 + 0.2
+  EXPECT_NEAR(depth_sigma("kinect2", 4.0), 0.0045, 1e-12);
+  EXPECT_NEAR(depth_sigma("azure_kinect", 2.0), 0.017, 1e-12);
+}
+
+TEST(DepthNoise, LongAxisIsTheRayWhereDepthErrorsAreLargest) {
+  const Eigen::Vector3d point(0.5, -0.3, 2.0);
+  for (const char* name : {"khoshelham", "azure_kinect", "realsense_d435"}) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance_in_sensor(model(name), point));
+    EXPECT_GT(std::abs(axes.eigenvectors().col(2).dot(point.normalized())), std::cos(0.06)) << name;
+  }
+}
+
+TEST(LidarNoise, HasItsDeviationsAlongAndAcrossTheRay) {
+  const Eigen::Vector3d point(-3.0, 4.0, 12.0);  // 13 m away
+  const Eigen::Matrix3d cov = covariance_in_sensor(model("lidar:range=0.02,angle=0.001"), point);
+  const Eigen::Vector3d along = point.normalized(), across = along.unitOrthogonal();
+  EXPECT_NEAR(std::sqrt(along.dot(cov * along)), 0.02, 1e-12);
+  EXPECT_NEAR(std::sqrt(across.dot(cov * across)), 0.013, 1e-12);
+  EXPECT_NEAR(along.dot(cov * across), 0.0, 1e-15);
+  EXPECT_EQ(std::get<LidarNoise>(model("lidar").kind).range, 0.02);
+}
+
 TEST(StereoNoise, IsTheFirstOrderImageOfPixelAndDisparityNoise) {
   const double f = 525, b = 0.075, pointing = 0.35, disparity = 0.17;
   const auto point = [&](const Eigen::Vector3d& uvd) {  // of pixel coordinates and disparity
@@ -102,7 +143,8 @@ TEST(NoiseModel, CovariancesAreSymmetricAndNowhereNegative) {
   test::SeededRandom random;
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d point(random.normal(), random.normal(), random.uniform(0.3, 8.0));
-    for (const char* specification : {"kinect1", "isotropic:0.003"}) {
+    for (const char* specification : {"kinect1", "khoshelham", "nguyen", "kinect2", "azure_kinect",
+                                      "realsense_d435", "lidar", "isotropic:0.003"}) {
       const Eigen::Matrix3d cov = covariance(model(specification), Viewpoint{}, point);
       EXPECT_EQ(cov, cov.transpose());
       EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cov).eigenvalues()(0), 0.0);
@@ -127,7 +169,9 @@ TEST(NoiseModel, TurnsWithTheSensor) {
 }
 
 TEST(NoiseHelp, ShowsEveryModel) {
-  for (const char* name : {"from_file", "stereo:", "kinect1", "isotropic:", "estimated:", "Source:"}) {
+  for (const char* name :
+       {"from_file", "stereo:", "kinect1", "khoshelham", "nguyen", "realsense_d435", "kinect2",
+        "azure_kinect", "lidar:range=", "isotropic:", "estimated:", "Source:"}) {
     EXPECT_THAT(noise_help(), HasSubstr(name));
   }
 }

@@ -122,6 +122,35 @@ TEST(RangeCamera, DrawsTheNoiseOfAPixelWhateverElseIsSeen) {
   }
 }
 
+TEST(RangeCamera, DepthsAreMultiplesOfAStepAlongTheRay) {
+  Camera camera = small_camera();
+  camera.depth_step = 0.001;
+  const NoiseModel kinect = model("kinect1");
+  const Scan coarse = simulate_scan(camera, plane_at_depth(2.0), kinect, 7);
+  const Scan fine = simulate_scan(small_camera(), plane_at_depth(2.0), kinect, 7);
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    const double steps = coarse.point(i).z() / camera.depth_step;
+    EXPECT_NEAR(steps, std::round(steps), 1e-3);
+    EXPECT_LE(std::abs(coarse.point(i).z() - fine.point(i).z()), 0.5e-3 + 1e-6);
+    EXPECT_LT(coarse.point(i).cross(fine.point(i)).norm(), 1e-5) << "one ray";
+  }
+}
+
+TEST(RangeCamera, LosesTheShareOfReturnsItIsToldTo) {
+  Camera camera = small_camera();
+  camera.width = 200;
+  camera.height = 100;
+  const Scan whole = simulate_scan(camera, plane_at_depth(2.0), model("kinect1"), 3);
+  camera.missing = 0.2;
+  const Scan holed = simulate_scan(camera, plane_at_depth(2.0), model("kinect1"), 3);
+  EXPECT_NEAR(static_cast<double>(holed.finite_count), 16000.0, 4 * 57);  // 57: one standard deviation
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (holed.finite[i]) {
+      EXPECT_TRUE(same_bits(whole.positions[i], holed.positions[i]));
+    }
+  }
+}
+
 // Mean and covariance of (point - truth) in units of the model: 0 and the identity where the camera is right.
 class NoiseSample {
  public:
@@ -185,7 +214,9 @@ TEST_P(RangeCameraNoise, HasTheModelsCovarianceOverPixels) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, RangeCameraNoise,
-                         testing::Values("kinect1", "isotropic:0.002",
+                         testing::Values("kinect1", "khoshelham", "nguyen", "kinect2", "azure_kinect",
+                                         "realsense_d435", "lidar", "lidar:range=0.01,angle=0.004",
+                                         "isotropic:0.002",
                                          "stereo:f=400,baseline=0.05,pointing=0.9,disparity=0.05"),
                          [](const auto& model) { return "Model" + std::to_string(model.index); });
 
