@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "engine/base/large_pages.h"
+
 namespace patchlab {
 namespace {
 
@@ -38,7 +40,9 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) 
 
 Result<Bytes> read_to_end(int descriptor, const std::string& name, std::uint64_t limit,
                           std::size_t expected) {
-  Bytes bytes(expected);
+  Bytes bytes;
+  reserve_large(bytes, expected);
+  bytes.resize(expected);
   std::size_t used = 0;
   for (;;) {
     if (used == bytes.size()) bytes.resize(used + std::max<std::size_t>(used / 2, 1 << 16));

@@ -15,6 +15,7 @@ namespace {
 
 struct FitRequest {
   OpenScan open{.id = "scan-1", .file = {}};
+  ScanFlags flags;
   std::string region_file;
   std::optional<std::uint32_t> label;
   FitOptions options;
@@ -148,7 +149,7 @@ Action set_up_fit(CLI::App& app) {
   app.add_option("--viewpoint", request->viewpoint, "where the sensor stood: X,Y,Z in metre")
       ->delimiter(',')
       ->expected(3);
-  add_points_in(app, request->open.points_in_sensor_frame);
+  add_scan_flags(app, request->flags);
   app.add_option("-o,--output", request->output, "write a patch set; - is standard output");
   app.add_flag("--json", request->json, "print the patch set instead of a table");
   app.add_flag("--require-accepted", request->require_accepted,
@@ -157,6 +158,8 @@ Action set_up_fit(CLI::App& app) {
   return [request] {
     const std::vector<double>& v = request->viewpoint;
     if (!v.empty()) request->open.viewpoint = Eigen::Vector3d(v[0], v[1], v[2]);
+    if (const Result<void> told = tell(request->flags, request->open); !told)
+      return Result<int>(told.error());
     return fit(*request);
   };
 }

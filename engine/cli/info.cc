@@ -5,6 +5,7 @@
 #include "engine/cli/output.h"
 #include "engine/cli/verb.h"
 #include "engine/io/read_scan.h"
+#include "engine/scan/survey.h"
 
 namespace patchlab {
 namespace {
@@ -13,7 +14,7 @@ using nlohmann::ordered_json;
 
 struct InfoRequest {
   std::string scan;
-  bool points_in_sensor_frame = false;
+  ScanFlags flags;
   bool json = false;
 };
 
@@ -24,6 +25,7 @@ ordered_json to_json(const Scan& scan) {
   for (const FieldInfo& field : scan.fields) {
     fields.push_back({{"name", field.name}, {"type", field.type}, {"count", field.count}});
   }
+  const Survey found = survey(scan);
   ordered_json box = nullptr;
   if (const std::optional<Bounds> around = bounds(scan))
     box = {{"min", list(around->min)}, {"max", list(around->max)}};
@@ -44,6 +46,8 @@ ordered_json to_json(const Scan& scan) {
           {"unit", "m"},
           {"covariance", !scan.covariances.empty()},
           {"labels", !scan.labels.empty()},
+          {"duplicates", found.duplicates},
+          {"far_outliers", found.far_outliers},
           {"notices", scan.notices}};
 }
 
@@ -85,14 +89,21 @@ std::string to_text(const Scan& scan) {
   }
   text += line("covariance  ", scan.covariances.empty() ? "no" : "yes");
   text += line("labels      ", scan.labels.empty() ? "no" : "yes");
+  if (json["duplicates"] != 0) text += line("duplicates  ", json["duplicates"].dump());
+  if (json["far_outliers"] != 0) {
+    text += line("outliers    ", json["far_outliers"].dump() +
+                                     " points are ten times farther from the middle than nine tenths of all");
+  }
   for (const std::string& notice : scan.notices) text += line("notice      ", notice);
   return text;
 }
 
 Result<int> info(const InfoRequest& request) {
   ProgressLine line("reading");
-  const Result<Scan> scan = read_scan(
-      request.scan, {.points_in_sensor_frame = request.points_in_sensor_frame, .progress = line.progress()});
+  ReadOptions options;
+  options.progress = line.progress();
+  if (const Result<void> told = tell(request.flags, options); !told) return told.error();
+  const Result<Scan> scan = read_scan(request.scan, options);
   if (!scan) return scan.error();
   Outputs outputs;
   outputs.add("-", request.json ? json_text_of(*scan) : to_text(*scan));
@@ -104,7 +115,7 @@ Result<int> info(const InfoRequest& request) {
 Action set_up_info(CLI::App& app) {
   const auto request = std::make_shared<InfoRequest>();
   app.add_option("scan", request->scan, "a scan; - is standard input")->required();
-  add_points_in(app, request->points_in_sensor_frame);
+  add_scan_flags(app, request->flags);
   app.add_flag("--json", request->json, "print JSON");
   return [request] { return info(*request); };
 }

@@ -1,5 +1,7 @@
 #include "engine/io/covariance_columns.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -83,7 +85,37 @@ Result<Covariances> from_one_field(const Column& column, const CovarianceFrame& 
   return from_components(components, frame);
 }
 
+// Is the shifted matrix positive: does it have a Cholesky factor?
+bool positive_above(const Eigen::Matrix3d& cov, double shift) {
+  const Eigen::Matrix3d shifted = cov + shift * Eigen::Matrix3d::Identity();
+  return shifted.llt().info() == Eigen::Success;
+}
+
+Eigen::Matrix3d clamped(const Eigen::Matrix3d& cov) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(cov);
+  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         axes.eigenvectors().transpose();
+}
+
 }  // namespace
+
+CovarianceCount judge_covariances(std::vector<Covariance6>& covariances,
+                                  const std::vector<std::uint8_t>& finite) {
+  constexpr double rounding = 1e-6, nothing = 1e-12;  // of the trace
+  CovarianceCount count;
+  for (std::size_t i = 0; i < covariances.size(); ++i) {
+    const Eigen::Matrix3d cov = matrix(covariances[i]);
+    if (!finite[i] || cov.isZero(0.0)) continue;
+    const double trace = cov.trace();
+    if (!cov.allFinite() || trace <= 0.0 || !positive_above(cov, rounding * trace)) {
+      ++count.bad;
+    } else if (!positive_above(cov, nothing * trace)) {
+      covariances[i] = upper_triangle(clamped(cov));
+      ++count.clamped;
+    }
+  }
+  return count;
+}
 
 bool is_covariance_column(std::string_view name) {
   return std::ranges::find(other_names, name) != std::end(other_names) ||

@@ -1,11 +1,12 @@
-// The header row of a point table.
+// Point tables: rows of numbers, with a header row or without.
 #pragma once
 
 #include <string_view>
 
 namespace patchlab {
 
-// Is this line the header row of a point table: columns named x, y and z among others?
-bool is_point_table_header(std::string_view line);
+// Does a point table begin here: a line, comments and blank lines left out, that names columns x, y and z
+// among others, or that holds three numbers at least?
+bool is_point_table(std::string_view bytes);
 
 }  // namespace patchlab

@@ -1,9 +1,11 @@
 #include "engine/io/scan_from_columns.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/io/covariance_columns.h"
+#include "engine/io/place_points.h"
 #include "engine/io/plausible.h"
 #include "engine/io/read_error.h"
 
@@ -12,11 +14,8 @@ namespace {
 
 using Names3 = std::array<std::string_view, 3>;
 using Columns = std::span<const Column>;
-using Points = std::vector<Eigen::Vector3d>;
 
 constexpr std::uint64_t bytes_a_point = 128;  // of a Scan with everything, and of what it is made from
-constexpr double large = 1000.0;              // m: a float there is coarser than 0.05 mm
-constexpr double wide = 5000.0;               // m: more than a scan of metres spans
 
 constexpr Names3 coordinate_names = {"x", "y", "z"};
 constexpr Names3 viewpoint_names = {"vp_x", "vp_y", "vp_z"};
@@ -32,6 +31,17 @@ Points gather3(const std::array<const Column*, 3>& xyz, std::size_t points) {
 
 void transform(Points& points, const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
   for (Eigen::Vector3d& point : points) point = R * point + t;
+}
+
+void scale(Points& points, double factor) {
+  if (factor == 1.0) return;
+  for (Eigen::Vector3d& point : points) point *= factor;
+}
+void scale(std::vector<Covariance6>& covariances, double factor) {
+  if (factor == 1.0) return;
+  for (Covariance6& covariance : covariances) {
+    for (double& entry : covariance) entry *= factor;
+  }
 }
 
 Result<void> check_plausible(Scan& scan, const std::array<const Column*, 3>& xyz, const Points& points) {
@@ -51,48 +61,19 @@ Result<void> check_plausible(Scan& scan, const std::array<const Column*, 3>& xyz
   return {};
 }
 
-// Multiples of a power of two near the extent, and float: float coordinates minus the origin are exact. Only
-// axes whose numbers get smaller by it are moved.
-Eigen::Vector3d middle_origin(const Points& points, double smallest_coordinate) {
-  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array3d high = -low;
-  for (const Eigen::Vector3d& point : points) {
-    if (!point.allFinite()) continue;
-    low = low.min(point.array());
-    high = high.max(point.array());
-  }
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  if (!(low <= high).all()) return origin;
-  const double extent = (high - low).matrix().norm();
-  const double step = extent > 0.0 ? std::exp2(std::floor(std::log2(extent))) : 1.0;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double middle = 0.5 * (low(axis) + high(axis));
-    if (std::abs(middle) < smallest_coordinate || std::abs(middle) <= extent) continue;
-    const auto rounded = static_cast<float>(step * std::round(middle / step));
-    if (std::isfinite(rounded)) origin(axis) = static_cast<double>(rounded);
-  }
-  return origin;
-}
+bool is_plain_float(const Column& column) { return column.type == Scalar::float32 && !column.swapped; }
 
-void place_points(Scan& scan, const Points& points, OriginRule rule) {
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  constexpr double limit = std::numeric_limits<float>::max();
-  scan.origin = middle_origin(points, rule == OriginRule::always ? 0.0 : large);
-  scan.positions.resize(points.size());
-  scan.finite.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d position = points[i] - scan.origin;
-    const bool finite = (position.array().abs() <= limit).all();
-    scan.positions[i] = finite ? Eigen::Vector3f(position.cast<float>()) : Eigen::Vector3f(nan, nan, nan);
-    scan.finite[i] = finite ? 1 : 0;
-    scan.finite_count += finite ? 1 : 0;
-  }
-  if (scan.finite_count == 0) scan.notices.emplace_back("None of the points has finite coordinates.");
-  const std::optional<Bounds> box = bounds(scan);
-  if (!box || (box->max - box->min).norm() < wide) return;
-  scan.notices.emplace_back(
-      "The points span kilometres: patchlab takes coordinates as metres; if these are millimetres, scale "
-      "them first.");
+// Nothing of these files needs the coordinates as doubles: no other type or byte order, unit, frame,
+// covariance or position of a sensor.
+bool are_plain_floats(const Scan& scan, Columns columns, const std::array<const Column*, 3>& xyz,
+                      const ReadOptions& options) {
+  const bool as_they_stand =
+      options.unit == LengthUnit::m && !(options.points_in_sensor_frame && scan.viewpoint.stated);
+  return as_they_stand && std::ranges::all_of(xyz, [](const Column* c) { return is_plain_float(*c); }) &&
+         std::ranges::none_of(columns, [](const Column& column) {
+           return is_covariance_column(column.name) ||
+                  std::ranges::find(viewpoint_names, column.name) != viewpoint_names.end();
+         });
 }
 
 void fill_colours(Scan& scan, Columns columns, std::size_t points) {
@@ -136,6 +117,25 @@ void fill_labels(Scan& scan, Columns columns, std::size_t points) {
                          std::to_string(dropped) + " of them.");
 }
 
+void use_intrinsics(Scan& scan, const ReadOptions& options) {
+  if (options.intrinsics && scan.organized()) {
+    const Intrinsics& camera = *options.intrinsics;
+    scan.intrinsics = {camera.fx, camera.fy, camera.cx, camera.cy};
+  } else if (options.intrinsics || options.depth_scale > 0.0) {
+    scan.notices.emplace_back("Intrinsics and depth scale are those of depth images; this is none.");
+  }
+}
+
+void note_covariances(Scan& scan) {
+  const CovarianceCount count = judge_covariances(scan.covariances, scan.finite);
+  if (count.clamped > 0)
+    scan.notices.push_back("Covariances that are negative by rounding were made positive semi-definite: " +
+                           std::to_string(count.clamped) + " of them.");
+  if (count.bad > 0)
+    scan.notices.push_back("Covariances that are not positive semi-definite, or not finite: " +
+                           std::to_string(count.bad) + "; a fit that uses one of them is refused.");
+}
+
 }  // namespace
 
 bool is_point_table_column(std::string_view name) {
@@ -151,11 +151,20 @@ Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t 
     return unreadable(scan.file, "has no field '" + std::string(coordinate_names[missing]) +
                                      "' with one value a point; a scan needs x, y and z.");
   }
+  if (are_plain_floats(scan, columns, xyz, options) && place_floats(scan, xyz, points, rule)) {
+    fill_colours(scan, columns, points);
+    fill_labels(scan, columns, points);
+    use_intrinsics(scan, options);
+    return {};
+  }
   Points coordinates = gather3(xyz, points);
   if (const Result<void> plausible = check_plausible(scan, xyz, coordinates); !plausible) return plausible;
 
   const auto viewpoint_columns = find_columns(columns, viewpoint_names);
   Points viewpoints = is_complete(viewpoint_columns) ? gather3(viewpoint_columns, points) : Points{};
+  const double unit = metres(options.unit);
+  for (Points* const lengths : {&coordinates, &viewpoints}) scale(*lengths, unit);
+  scan.viewpoint.position *= unit;
   CovarianceFrame frame;
   if (options.points_in_sensor_frame && scan.viewpoint.stated) {
     frame.points_from_file = rotation(scan.viewpoint);
@@ -176,6 +185,9 @@ Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t 
   Result<std::vector<Covariance6>> covariances = read_covariances(columns, frame, scan.file);
   if (!covariances) return covariances.error();
   scan.covariances = std::move(*covariances);
+  scale(scan.covariances, unit * unit);
+  note_covariances(scan);
+  use_intrinsics(scan, options);
   return {};
 }
 

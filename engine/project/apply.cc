@@ -46,7 +46,11 @@ Result<Scan> read(OpenScan& open, const ApplyOptions& options) {
                                          hash + ", the recorded one " + open.sha256 +
                                          "; restore it, or replay with --on " + file.string() + "."};
   }
-  const ReadOptions how{.points_in_sensor_frame = open.points_in_sensor_frame, .progress = options.progress};
+  const ReadOptions how{.points_in_sensor_frame = open.points_in_sensor_frame,
+                        .unit = open.unit,
+                        .intrinsics = open.intrinsics,
+                        .depth_scale = open.depth_scale,
+                        .progress = options.progress};
   Result<Scan> scan = read_scan_bytes(as_text(*bytes), file == "-" ? "standard input" : file.string(), how);
   if (!scan) return scan;
   open.sha256 = hash;

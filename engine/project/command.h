@@ -12,6 +12,7 @@
 
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
+#include "engine/io/scan_options.h"
 #include "engine/project/document.h"
 #include "engine/region/lasso.h"
 
@@ -24,6 +25,9 @@ struct OpenScan {
   std::string noise = {};   // specification; empty: the scan's default
   bool points_in_sensor_frame = false;
   std::optional<Eigen::Vector3d> viewpoint = {};  // m: where the sensor stood, instead of what the file says
+  LengthUnit unit = LengthUnit::m;                // of the lengths in the file
+  std::optional<Intrinsics> intrinsics = {};      // of the camera of a depth image
+  double depth_scale = 0.0;                       // raw units of a depth image a metre; 0: not said
 };
 // Patches of the scan are fitted again with the new model.
 struct SetNoise {

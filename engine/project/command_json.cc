@@ -29,8 +29,17 @@ std::optional<bool> sensor_from_name(std::string_view name) {
   return name == "sensor" ? std::optional(true) : std::nullopt;
 }
 
-std::optional<bool> metre_from_name(std::string_view name) {
-  return name == "m" ? std::optional(true) : std::nullopt;
+// fx fy cx cy; the size of the pictures was checked when the intrinsics were given.
+Intrinsics read_intrinsics(const JsonPlace& place) {
+  const Eigen::VectorXd n = place.numbers(4);
+  must(n[0] > 0.0 && n[1] > 0.0, place, "has a focal length that is not positive");
+  return {.fx = n[0], .fy = n[1], .cx = n[2], .cy = n[3]};
+}
+
+double read_depth_scale(const JsonPlace& place) {
+  const double scale = place.number();
+  must(scale > 0.0, place, "must be positive");
+  return scale;
 }
 
 std::uint32_t read_id(const JsonPlace& place) {
@@ -50,15 +59,17 @@ std::vector<Eigen::Vector2d> read_polygon(const JsonPlace& place) {
 }
 
 void read(const JsonPlace& place, OpenScan& open) {
-  place.only({"do", "id", "file", "sha256", "noise", "points_in", "viewpoint", "unit"});
-  bool metre = true;
+  place.only(
+      {"do", "id", "file", "sha256", "noise", "points_in", "viewpoint", "unit", "intrinsics", "depth_scale"});
   open.id = place["id"].text();
   open.file = place["file"].text();
   may(place, "sha256", open.sha256, &JsonPlace::text);
   may(place, "noise", open.noise, &JsonPlace::text);
   may_name(place, "points_in", open.points_in_sensor_frame, sensor_from_name);
   may(place, "viewpoint", open.viewpoint, read_position);
-  may_name(place, "unit", metre, metre_from_name);
+  may_name(place, "unit", open.unit, length_unit_from_name);
+  may(place, "intrinsics", open.intrinsics, read_intrinsics);
+  may(place, "depth_scale", open.depth_scale, read_depth_scale);
 }
 
 ordered_json write(const OpenScan& open) {
@@ -67,7 +78,12 @@ ordered_json write(const OpenScan& open) {
   if (!open.noise.empty()) object["noise"] = open.noise;
   if (open.points_in_sensor_frame) object["points_in"] = "sensor";
   if (open.viewpoint) object["viewpoint"] = list(*open.viewpoint);
-  object["unit"] = "m";
+  object["unit"] = name(open.unit);
+  if (open.intrinsics) {
+    const Intrinsics& camera = *open.intrinsics;
+    object["intrinsics"] = {camera.fx, camera.fy, camera.cx, camera.cy};
+  }
+  if (open.depth_scale > 0.0) object["depth_scale"] = open.depth_scale;
   return object;
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <optional>
 
 #include "engine/io/read_scan.h"
 
@@ -18,9 +17,11 @@ using testing::HasSubstr;
 
 struct Expected {
   std::size_t points, finite;
-  const char* notice;                              // part of one
-  std::optional<Eigen::Vector3d> everywhere = {};  // where all points lie
+  const char* notice;                         // part of one
+  std::vector<Eigen::Vector3d> corners = {};  // where the points lie, over and over
 };
+
+const std::vector<Eigen::Vector3d> triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
 constexpr const char* origin = "taken to be at the origin";
 
@@ -72,13 +73,44 @@ const std::map<std::string, Expected> accepted = {
     {"ok_be.ply", {10, 10, "'face' (2) was"}},
     {"ok_bin.ply", {10, 10, "'face' (2) was"}},
     {"ok_nofaces.ply", {10, 10, origin}},
-    {"p_alpha_only.ply", {10, 10, origin, Eigen::Vector3d(1, 2, 3)}},
+    {"p_alpha_only.ply", {10, 10, origin, {{1, 2, 3}}}},
     {"p_dbl.ply", {10, 10, origin}},
-    {"p_intensity.ply", {10, 10, origin, Eigen::Vector3d(2, 3, 255)}},
-    {"p_rgb_order.ply", {10, 10, origin, Eigen::Vector3d(1, 2, 3)}},
-    {"p_rgba_float.ply", {10, 10, origin, Eigen::Vector3d(1, 2, 3)}},
+    {"p_intensity.ply", {10, 10, origin, {{2, 3, 255}}}},
+    {"p_rgb_order.ply", {10, 10, origin, {{1, 2, 3}}}},
+    {"p_rgba_float.ply", {10, 10, origin, {{1, 2, 3}}}},
     {"rangegrid.ply", {10, 10, "'range_grid' (10"}},
     {"rangegrid_oob.ply", {10, 10, "10 of them damaged"}},
+    {"backslash.obj", {3, 3, "1 faces were", triangle}},
+    {"colors.obj", {3, 3, "1 faces were", triangle}},
+    {"crlf.obj", {10, 10, "1 faces were"}},
+    {"degenerate.stl", {1, 1, "2 faces, 2 of them damaged", {{0, 0, 0}}}},
+    {"dup.off", {3, 3, "3 faces were", triangle}},
+    {"face_1.obj", {1, 1, "3 faces, 3 of them damaged", {{0, 0, 0}}}},
+    {"face_first.obj", {3, 3, "1 faces were", triangle}},
+    {"idx_huge.obj", {3, 3, "1 faces, 1 of them damaged", triangle}},
+    {"idx_neg.obj", {3, 3, "1 faces were", triangle}},
+    {"idx_neg.off", {10, 10, "2 faces, 1 of them damaged"}},
+    {"idx_negoob.obj", {3, 3, "1 faces, 1 of them damaged", triangle}},
+    {"idx_oob.obj", {3, 3, "1 faces, 1 of them damaged", triangle}},
+    {"idx_oob.off", {10, 10, "2 faces, 1 of them damaged"}},
+    {"idx_zero.obj", {3, 3, "1 faces, 1 of them damaged", triangle}},
+    {"mtl_missing.obj", {3, 3, "1 faces were", triangle}},
+    {"mtl_only.obj", {3, 3, "1 faces were", triangle}},
+    {"mtl_traversal.obj", {3, 3, "1 faces were", triangle}},
+    {"nan.obj", {3, 1, "1 faces were", {{4, 5, 6}}}},
+    {"nan.off", {3, 1, "1 faces were", {{0, 0, 0}}}},
+    {"nan.stl", {1, 0, "None of the points"}},
+    {"nolf.obj", {3, 3, "1 faces were", triangle}},
+    {"normidx.obj", {3, 3, "1 faces were", triangle}},
+    {"ok.obj", {10, 10, "2 faces were"}},
+    {"ok.off", {10, 10, "2 faces were"}},
+    {"ok_ascii.stl", {3, 3, "1 faces were", triangle}},
+    {"ok_bin.stl", {3, 3, "2 faces were", triangle}},
+    {"poly_huge.off", {10, 10, "2 faces, 1 of them damaged"}},
+    {"poly_neg.off", {10, 10, "2 faces, 1 of them damaged"}},
+    {"slashes.obj", {3, 3, "1 faces, 1 of them damaged", triangle}},
+    {"solid_bin.stl", {3, 3, "2 faces were", triangle}},
+    {"texidx.obj", {3, 3, "1 faces were", triangle}},
     {"ünïcødé_点群 space'q.pcd", {10, 10, origin}},
 };
 
@@ -100,7 +132,9 @@ void expect_read_rightly(const Scan& scan, const Expected& expected) {
   for (std::size_t i = 0; i < scan.size() && expected.finite > 0; ++i) {
     const double k = static_cast<double>(i);
     const Eigen::Vector3d in_a_row(0.1 * k, 0.2 * k, 1.0 + 0.01 * k);
-    EXPECT_LT((scan.point(i) - expected.everywhere.value_or(in_a_row)).norm(), 1e-6) << i;
+    if (!scan.finite[i]) continue;
+    const auto& corners = expected.corners;
+    EXPECT_LT((scan.point(i) - (corners.empty() ? in_a_row : corners[i % corners.size()])).norm(), 1e-6) << i;
   }
 }
 
@@ -114,8 +148,8 @@ TEST(BadInputs, AreRefusedWithASentenceOrReadRightly) {
     const auto expected = accepted.find(file.filename().string());
     if (scan) {
       ++read;
-      ASSERT_NE(expected, accepted.end()) << "is accepted, but nobody has looked at it";
-      expect_read_rightly(*scan, expected->second);
+      EXPECT_NE(expected, accepted.end()) << "is accepted, but nobody has looked at it";
+      if (expected != accepted.end()) expect_read_rightly(*scan, expected->second);
     } else {
       EXPECT_EQ(expected, accepted.end()) << scan.error().message;
       EXPECT_EQ(scan.error().code, ErrorCode::unreadable);

@@ -77,12 +77,34 @@ TEST(PointTable, LinesAtFaultAreNamed) {
 }
 
 TEST(PointTable, HeaderRowsWithoutSenseAreRefused) {
-  EXPECT_THAT(refusal("1,2,3\n"), HasSubstr("line 1: is not the header row"));
+  EXPECT_THAT(refusal("1,2\n"), HasSubstr("line 1: is neither a header row"));
   EXPECT_THAT(refusal("x,y\n1,2\n"), HasSubstr("header row"));
   EXPECT_THAT(refusal("x,y,z,x\n1,2,3,4\n"), HasSubstr("'x' twice"));
   EXPECT_THAT(refusal("x,y,z,cxx\n1,2,3,4\n"), HasSubstr("'cxy' is missing"));
   EXPECT_THAT(refusal("x,y,z\n"), HasSubstr("no points"));
-  EXPECT_THAT(refusal("\n#\n"), HasSubstr("empty"));
+  EXPECT_THAT(refusal("\n#\n"), HasSubstr("no rows of numbers"));
+}
+
+TEST(PointTable, RowsWithoutAHeaderBeginWithXYZ) {
+  for (const char* text :
+       {"1,2,3,9\n4,5,6,9\n", "1 2 3 9\r\n4 5 6 9\r\n", "1;2;3;9\n\n4;5;6;9\n", "1\t2\t3\t9\n4\t5\t6\t9\n",
+        "# made by hand\n1 2 3 9\n// more\n  4   5 6 9\n", "1 2 3 9 \n4 5 6 9\n"}) {
+    const Scan scan = read(text);
+    ASSERT_EQ(scan.size(), 2U) << text;
+    EXPECT_EQ(scan.point(1), Eigen::Vector3d(4, 5, 6)) << text;
+    EXPECT_THAT(scan.notices, Contains(HasSubstr("no header row: its first three columns")));
+    EXPECT_THAT(scan.notices, Contains(HasSubstr("the columns after them were left out")));
+  }
+  EXPECT_THAT(refusal("1 2 3\n4 5 6 7\n"), HasSubstr("line 2: has 4 columns where the first row has 3"));
+}
+
+TEST(PointTable, HeaderRowsMayStandInACommentAndInCapitals) {
+  for (const char* text : {"//X Y Z R\n1 2 3 9\n", "# x y z r\n1 2 3 9\n", "X,Y,Z,Intensity\n1,2,3,9\n"}) {
+    const Scan scan = read(text);
+    ASSERT_EQ(scan.size(), 1U) << text;
+    EXPECT_EQ(scan.point(0), Eigen::Vector3d(1, 2, 3)) << text;
+    EXPECT_THAT(scan.notices, Not(Contains(HasSubstr("no header row"))));
+  }
 }
 
 TEST(PointTable, PointsThatAreNoneAreKeptAndCountedOut) {

@@ -47,13 +47,24 @@ constexpr RealScan real_scans[] = {
     {"planeseg_stair06.pcd", 107772, 107772, false},
     {"planeseg_terrain_med.pcd", 68913, 68913, false},
     {"pythonpcl_flydracyl.pcd", 6731, 6731, false},
+    {"slambook_ch5_depth1.pgm", 307200, 209236, true},
+    {"slambook_ch5_depth3.pgm", 307200, 223149, true},
     {"sustech_000950.pcd", 68242, 68242, false},
+    {"tsdf_frame-000150.depth.png", 307200, 270326, true},
+    {"ycb_Banana.obj", 7866, 7866, false},
+    {"ycb_CrackerBox.obj", 7866, 7866, false},
+    {"ycb_MasterChefCan.obj", 7678, 7678, false},
+    {"ycb_MustardBottle.obj", 7866, 7866, false},
 };
 
 const std::filesystem::path folder = PATCHLAB_SOURCE_DIR "/../shared/scans";
 
+// Depth images of millimetres; other scans leave the camera aside.
+const ReadOptions kinect = {.intrinsics = Intrinsics{.fx = 585, .fy = 585, .cx = 320, .cy = 240},
+                            .depth_scale = 1000};
+
 Scan read(const char* file) {
-  Result<Scan> scan = read_scan(folder / file);
+  Result<Scan> scan = read_scan(folder / file, kinect);
   if (!scan) ADD_FAILURE() << scan.error().message;
   return scan ? *std::move(scan) : Scan{};
 }
@@ -128,6 +139,17 @@ TEST_F(RealTrapTest, FirstPointOnTheDataLineIsNotLost) {
 TEST_F(RealTrapTest, BytesAfterTheLastPointAreNoted) {
   EXPECT_THAT(read("sustech_000950.pcd").notices,
               Contains(HasSubstr("3848 zero bytes (padding) after the last point")));
+}
+
+TEST_F(RealTrapTest, FilesBesideADepthImageAreRefusedInOneSentence) {
+  for (const auto& [file, what] :
+       {std::pair{"tsdf_camera-intrinsics.txt", "give it as --intrinsics"},
+        std::pair{"tsdf_frame-000150.pose.txt", "the pose of a camera"},
+        std::pair{"tsdf_frame-000150.color.png", "is a colour picture of 8 bits"}}) {
+    const Result<Scan> scan = read_scan(folder / file, kinect);
+    ASSERT_FALSE(scan) << file;
+    EXPECT_THAT(scan.error().message, HasSubstr(what));
+  }
 }
 
 TEST_F(RealTrapTest, MillimetresAreSuspected) {

@@ -19,7 +19,7 @@ Scan grid_with_everything() {
   scan.finite_count = 3;
   scan.colours = {{255, 128, 0}, {0, 0, 0}, {1, 2, 3}, {7, 8, 9}};
   scan.labels = {1, 0, 4000000000, 2};
-  scan.covariances.assign(4, {1e-6, 1.0 / 3.0, 0, 2e-6, -1e-9, 3e-6});
+  scan.covariances.assign(4, {1e-6, 1e-6 / 3.0, 0, 2e-6, -1e-9, 3e-6});
   scan.viewpoints = {{0, 0, 0.1F}, {0, 0, 0.2F}, {0, 0, 0.3F}, {0, 0, 0.4F}};
   scan.viewpoint.position = {0.1, -2.0 / 3.0, 1e-7};
   scan.viewpoint.quaternion_xyzw = {0.5, -0.5, 0.5, 0.5};

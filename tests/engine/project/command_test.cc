@@ -44,6 +44,9 @@ TEST(CommandJson, BeginsWithWhatItDoes) {
 
 TEST(CommandJson, KeepsEveryMemberThereAndBack) {
   OpenScan open{"scan-2", "a/b.pcd", "ab12", "isotropic:0.002", true, Eigen::Vector3d(1, 2, 0.1)};
+  open.unit = LengthUnit::mm;
+  open.intrinsics = Intrinsics{.fx = 585, .fy = 586, .cx = 320, .cy = 240};
+  open.depth_scale = 5000;
   Select lasso{.region = "region-3", .scan = "scan-2", .mode = SelectMode::intersect};
   lasso.polygon = {{0.1, 1.0 / 3.0}, {1e-300, 7.0}, {-12.5, 3.25}};
   lasso.camera.perspective = false;
@@ -105,7 +108,11 @@ TEST(CommandJson, NamesTheMemberThatIsWrong) {
       {R"({"do":"dance"})", "the command.do 'dance' is not known"},
       {R"({"do":"undo","times":2})", "undo has the unknown member \"times\""},
       {R"({"do":"rename","target":"x"})", "rename lacks the member \"name\""},
-      {R"({"do":"open_scan","id":"scan-1","file":"a.pcd","unit":"mm"})", "open_scan.unit 'mm' is not known"},
+      {R"({"do":"open_scan","id":"scan-1","file":"a.pcd","unit":"ft"})", "open_scan.unit 'ft' is not known"},
+      {R"({"do":"open_scan","id":"scan-1","file":"a.png","intrinsics":[0,1,2,3]})",
+       "open_scan.intrinsics has a focal length that is not positive"},
+      {R"({"do":"open_scan","id":"scan-1","file":"a.png","depth_scale":0})",
+       "open_scan.depth_scale must be positive"},
       {R"({"do":"open_scan","id":"scan-1","file":"a.pcd","viewpoint":[0,1]})",
        "open_scan.viewpoint has 2 entries"},
       {R"({"do":"select","region":"r","scan":"s"})",
