@@ -9,8 +9,8 @@
 namespace patchlab {
 namespace {
 
-constexpr std::uint64_t largest_side = 1 << 15;  // px
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::uint64_t largest_image_side = 1 << 15;  // px
+constexpr std::string_view header_blanks = " \t\r\n";
 
 Error not_said(const std::string& name, const std::string& what) {
   return {ErrorCode::usage, name + ": is a depth image, which does not say " + what};
@@ -44,11 +44,11 @@ Result<void> check_fits(const std::string& name, const DepthImage& image, const 
 // The next whole number of a PGM header; comments run from # to the end of the line.
 std::optional<std::uint64_t> next_number(std::string_view& rest) {
   for (;;) {
-    rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+    rest.remove_prefix(std::min(rest.find_first_not_of(header_blanks), rest.size()));
     if (!rest.starts_with('#')) break;
     rest.remove_prefix(std::min(rest.find('\n'), rest.size()));
   }
-  const std::size_t end = std::min(rest.find_first_of(blanks), rest.size());
+  const std::size_t end = std::min(rest.find_first_of(header_blanks), rest.size());
   const auto number = parse_number<std::uint64_t>(rest.substr(0, end));
   rest.remove_prefix(end);
   return number;
@@ -74,12 +74,13 @@ void unproject(const DepthImage& image, const Intrinsics& camera, double scale, 
 }  // namespace
 
 bool is_pgm(std::string_view bytes) {
-  return bytes.size() > 2 && bytes.starts_with("P5") && blanks.find(bytes[2]) != std::string_view::npos;
+  return bytes.size() > 2 && bytes.starts_with("P5") &&
+         header_blanks.find(bytes[2]) != std::string_view::npos;
 }
 
 Result<void> check_sides(const std::string& name, std::uint64_t width, std::uint64_t height,
                          std::uint64_t bytes, std::uint64_t expansion, const ReadOptions& options) {
-  if (width == 0 || height == 0 || width > largest_side || height > largest_side) {
+  if (width == 0 || height == 0 || width > largest_image_side || height > largest_image_side) {
     return unreadable(
         name, std::to_string(width) + " x " + std::to_string(height) + " are no sides of a depth image.");
   }

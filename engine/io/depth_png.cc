@@ -13,12 +13,12 @@ constexpr std::string_view signature = "\x89PNG\r\n\x1A\n";
 constexpr std::uint64_t largest_expansion = 1100;  // deflate packs 1032 bytes into one
 constexpr png_alloc_size_t largest_chunk = 8 << 20;
 
-struct Source {
+struct PngSource {
   std::string_view rest;
 };
 
 void take(png_structp png, png_bytep to, std::size_t size) {
-  Source& source = *static_cast<Source*>(png_get_io_ptr(png));
+  PngSource& source = *static_cast<PngSource*>(png_get_io_ptr(png));
   if (size > source.rest.size()) png_error(png, "cut off");
   std::memcpy(to, source.rest.data(), size);
   source.rest.remove_prefix(size);
@@ -39,7 +39,7 @@ struct Decoder {
 };
 
 // libpng leaves by longjmp, past the destructors of whatever stands in these two functions: nothing does.
-bool read_header(const Decoder& decoder, Source& source) {
+bool read_header(const Decoder& decoder, PngSource& source) {
   if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;
   png_set_read_fn(decoder.png, &source, take);
   png_set_chunk_malloc_max(decoder.png, largest_chunk);
@@ -68,7 +68,7 @@ bool is_png(std::string_view bytes) { return bytes.starts_with(signature); }
 Result<DepthImage> decode_png(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   const Decoder decoder;
   if (decoder.info == nullptr) return unreadable(name, "there is not enough memory to read it.");
-  Source source{bytes};
+  PngSource source{bytes};
   if (!read_header(decoder, source)) return unreadable(name, "the header of the PNG picture is damaged.");
   DepthImage image{
       png_get_image_width(decoder.png, decoder.info), png_get_image_height(decoder.png, decoder.info), {}};

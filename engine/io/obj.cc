@@ -9,7 +9,7 @@
 namespace patchlab {
 namespace {
 
-constexpr std::size_t lines_between_progress = 1 << 16;
+constexpr std::size_t obj_lines_between_progress = 1 << 16;
 constexpr std::string_view without_points[] = {
     "vt",     "vn",     "vp",     "p",          "l",         "o",    "g",    "s",     "mg",       "mtllib",
     "usemtl", "usemap", "maplib", "cstype",     "deg",       "bmat", "step", "curv",  "curv2",    "surf",
@@ -93,7 +93,7 @@ Result<MeshData> parse_obj(std::string_view bytes, const std::string& name, cons
   while (const auto line = lines.next()) {
     const auto added = add_line(whole_line(lines, *line, joined), lines.number(), name, mesh, faces);
     if (!added) return added.error();
-    if (lines.number() % lines_between_progress != 0) continue;
+    if (lines.number() % obj_lines_between_progress != 0) continue;
     if (!keep_going(options.progress, 1.0 - static_cast<double>(lines.rest().size()) / all))
       return Error{ErrorCode::cancelled, name + ": reading was cancelled."};
     if (const auto fits = check_memory(name, mesh.vertices.size(), 0, options); !fits) return fits.error();

@@ -6,7 +6,7 @@
 namespace patchlab {
 namespace {
 
-constexpr std::size_t lines_between_progress = 1 << 16;
+constexpr std::size_t off_lines_between_progress = 1 << 16;
 
 // The lines of an OFF file that hold something, without comments.
 class OffLines {
@@ -128,7 +128,7 @@ Result<void> fill(OffLines& lines, const Counts& counts, const VertexLayout& lay
       if (!corners) return corners.error();
       add_face(mesh, *corners, mesh.vertices.size());
     }
-    if (i % lines_between_progress == lines_between_progress - 1 &&
+    if (i % off_lines_between_progress == off_lines_between_progress - 1 &&
         !keep_going(options.progress, static_cast<double>(i) / all))
       return Error{ErrorCode::cancelled, lines.name() + ": reading was cancelled."};
   }

@@ -13,11 +13,11 @@
 namespace patchlab {
 namespace {
 
-constexpr double large = 1000.0;      // m: a float there is coarser than 0.05 mm
-constexpr double wide_cloud = 500.0;  // m: more than most scans of metres span
-constexpr double wide_view = 50.0;    // m: more than a depth camera sees, and a part made by CAD
-constexpr float huge = 1e7F;          // m: no map projection reaches it
-constexpr float tiny = 1e-30F;        // m: only damage is smaller, but for zero
+constexpr double large = 1000.0;           // m: a float there is coarser than 0.05 mm
+constexpr double wide_cloud = 500.0;       // m: more than most scans of metres span
+constexpr double wide_view = 50.0;         // m: more than a depth camera sees, and a part made by CAD
+constexpr float huge_coordinate = 1e7F;    // m: no map projection reaches it
+constexpr float tiny_coordinate = 1e-30F;  // m: only damage is smaller, but for zero
 
 // The box of the points with finite coordinates, empty (low > high) where there are none.
 struct Box {
@@ -64,7 +64,7 @@ constexpr std::uint32_t magnitude_of_infinity = magnitude(std::numeric_limits<fl
 
 bool is_strange(float value) {
   const std::uint32_t size = magnitude(value);
-  return size > magnitude(huge) || (size < magnitude(tiny) && size > 0);
+  return size > magnitude(huge_coordinate) || (size < magnitude(tiny_coordinate) && size > 0);
 }
 
 // Asked, never guessed: no file format carries its unit. Map coordinates are metres.
@@ -72,7 +72,8 @@ void ask_for_unit(Scan& scan, const Box& box) {
   const double span = (box.high - box.low).matrix().norm();
   constexpr std::string_view meshes[] = {"obj", "off", "stl"};
   const bool view = scan.organized() || std::ranges::find(meshes, scan.format) != std::end(meshes);
-  if (span < (view ? wide_view : wide_cloud) || span > double{huge} || scan.origin.norm() > 10.0 * span)
+  if (span < (view ? wide_view : wide_cloud) || span > double{huge_coordinate} ||
+      scan.origin.norm() > 10.0 * span)
     return;
   scan.notices.push_back(
       "The points span " + std::to_string(std::lround(span)) +

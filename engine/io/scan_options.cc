@@ -16,7 +16,7 @@ namespace {
 using Numbers = std::vector<double>;
 
 constexpr std::size_t largest_file = 64 << 10;
-constexpr std::uint64_t largest_side = 1 << 16;  // px
+constexpr std::uint64_t largest_picture_side = 1 << 16;  // px
 
 struct UnitRow {
   LengthUnit unit;
@@ -71,8 +71,8 @@ Result<std::optional<Intrinsics>> from_json(std::string_view text, const std::st
   const JsonPlace root = top.find("intrinsic").value_or(top);
   const Eigen::VectorXd matrix = root["intrinsic_matrix"].numbers(9);
   std::uint64_t width = 0, height = 0;
-  if (const auto place = root.find("width")) width = place->whole_number(largest_side);
-  if (const auto place = root.find("height")) height = place->whole_number(largest_side);
+  if (const auto place = root.find("width")) width = place->whole_number(largest_picture_side);
+  if (const auto place = root.find("height")) height = place->whole_number(largest_picture_side);
   if (error) return *error;
   // Open3D writes the matrix column by column.
   auto found = from_numbers(transposed(Numbers(matrix.begin(), matrix.end())));

@@ -13,7 +13,7 @@ namespace patchlab {
 namespace {
 
 constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
-constexpr std::size_t lines_between_progress = 1 << 16;
+constexpr std::size_t stl_lines_between_progress = 1 << 16;
 
 using Corner = std::array<float, 3>;
 using Corners = std::vector<Corner>;  // three a triangle
@@ -86,7 +86,7 @@ Result<Corners> text_corners(std::string_view bytes, const std::string& name, co
     } else if (!entry.empty() && std::ranges::find(silent, entry) == std::end(silent)) {
       return unreadable_line(name, lines.number(), shown(entry) + " does not belong here in an STL file.");
     }
-    if (lines.number() % lines_between_progress == 0 &&
+    if (lines.number() % stl_lines_between_progress == 0 &&
         !keep_going(options.progress, 1.0 - static_cast<double>(lines.rest().size()) / all))
       return Error{ErrorCode::cancelled, name + ": reading was cancelled."};
   }
