@@ -20,15 +20,19 @@ std::string text(const char* format, double a, double b = 0.0) {
 // Cells about the patch: what area of each is inside the bound, and the points it holds.
 class CellGrid {
  public:
-  CellGrid(const Boundary& bound, double side, const Vector2d& reach)
-      : bound_(bound), side_(side), columns_(count(reach.x())), rows_(count(reach.y())) {
+  CellGrid(const Boundary& bound, const Boundary& doubtless, double side, const Vector2d& reach)
+      : bound_(bound),
+        doubtless_(doubtless),
+        side_(side),
+        columns_(count(reach.x())),
+        rows_(count(reach.y())) {
     inside_.resize(static_cast<std::size_t>(columns_ * rows_));
     outside_ = inside_;
   }
   void add(const Vector2d& u, double points) {
     const int column = cell(u.x(), columns_), row = cell(u.y(), rows_);
     if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return;
-    auto& counts = contains(bound_, u) ? inside_ : outside_;
+    auto& counts = contains(doubtless_, u) ? inside_ : outside_;
     counts[static_cast<std::size_t>(row * columns_ + column)] += points;
   }
   double score(double expected_per_cell) const {
@@ -61,11 +65,22 @@ class CellGrid {
     return hits / static_cast<double>(fine * fine);
   }
 
-  Boundary bound_;
+  Boundary bound_, doubtless_;  // outside the latter is outside beyond the outline's own doubt
   double side_;
   int columns_, rows_;
   std::vector<double> inside_, outside_;
 };
+
+// The outline with every length longer by two of its standard deviations.
+Boundary beyond_doubt(const Patch& patch) {
+  Boundary grown = boundary(patch);
+  if (!patch.covariance_local) return grown;
+  const Eigen::Index lengths = grown.type == BoundaryType::convex_quad ? 4 : grown.d.size();
+  for (Eigen::Index i = 0; i < lengths; ++i) {
+    grown.d[i] += 2.0 * std::sqrt(std::max((*patch.covariance_local)(i, i), 0.0));
+  }
+  return grown;
+}
 
 double orthogonal_rms(const Samples& samples, const SurfaceFit& fit) {
   const Vector3d kappa = k3(fit.model, fit.state.k);
@@ -271,7 +286,7 @@ double coverage(const Patch& patch, const std::vector<Vector3d>& points_patch,
     if (weights[i] > 0.0) reach = reach.cwiseMax(points_patch[i].head<2>().cwiseAbs());
   }
   reach = reach.cwiseMin(3.0 * extent(bound));
-  CellGrid grid(bound, side, reach);
+  CellGrid grid(bound, beyond_doubt(patch), side, reach);
   for (std::size_t i = 0; i < points_patch.size(); ++i) {
     if (weights[i] > 0.0) grid.add(points_patch[i].head<2>(), used * weights[i]);
   }
