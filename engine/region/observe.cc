@@ -8,7 +8,7 @@
 namespace patchlab {
 namespace {
 
-// Standard deviation of a ray at an edge of what it sees: depth cameras match windows of several pixels.
+// method M13: standard deviation of a ray at an edge of what it sees; depth cameras match windows of several.
 constexpr double edge_pixels = 2.0;
 
 Eigen::Matrix3d full(const Covariance6& c) {
