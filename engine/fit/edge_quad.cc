@@ -10,7 +10,7 @@
 namespace patchlab {
 namespace {
 
-using Dual = Eigen::AutoDiffScalar<EdgeVector>;
+using EdgeDual = Eigen::AutoDiffScalar<EdgeVector>;
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
@@ -26,30 +26,30 @@ EdgeQuad quad_of_edges(const EdgeVector& edges) {
   using std::acos;
   using std::atan2;
   using std::sqrt;
-  Edges<Dual> dual;
-  for (int i = 0; i < 8; ++i) dual[i] = Dual(edges[i], 8, i);
-  std::array<Vector2<Dual>, 4> v;
-  for (int i = 0; i < 4; ++i) v[static_cast<std::size_t>(i)] = corner<Dual>(dual, i, (i + 1) % 4);
-  const Vector2<Dual> a = v[2] - v[0], b = v[3] - v[1], across = v[1] - v[0];
-  const Dual denominator = a[0] * b[1] - a[1] * b[0];
-  const Dual share =
+  Edges<EdgeDual> dual;
+  for (int i = 0; i < 8; ++i) dual[i] = EdgeDual(edges[i], 8, i);
+  std::array<Vector2<EdgeDual>, 4> v;
+  for (int i = 0; i < 4; ++i) v[static_cast<std::size_t>(i)] = corner<EdgeDual>(dual, i, (i + 1) % 4);
+  const Vector2<EdgeDual> a = v[2] - v[0], b = v[3] - v[1], across = v[1] - v[0];
+  const EdgeDual denominator = a[0] * b[1] - a[1] * b[0];
+  const EdgeDual share =
       (across[0] * b[1] - across[1] * b[0]) / denominator;  // the diagonals meet at v_1 + share a
-  const Vector2<Dual> centre = {Dual(v[0][0] + share * a[0]), Dual(v[0][1] + share * a[1])};
+  const Vector2<EdgeDual> centre = {EdgeDual(v[0][0] + share * a[0]), EdgeDual(v[0][1] + share * a[1])};
   EdgeQuad quad;
-  const auto put = [&](int row, const Dual& value) {
+  const auto put = [&](int row, const EdgeDual& value) {
     quad.J_quad_edges.row(row) = value.derivatives().transpose();
     return value.value();
   };
-  std::array<Dual, 4> angle;
+  std::array<EdgeDual, 4> angle;
   for (int i = 0; i < 4; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const Dual x = v[at][0] - centre[0], y = v[at][1] - centre[1];
-    quad.d[i] = put(i, Dual(sqrt(Dual(x * x + y * y))));
+    const EdgeDual x = v[at][0] - centre[0], y = v[at][1] - centre[1];
+    quad.d[i] = put(i, EdgeDual(sqrt(EdgeDual(x * x + y * y))));
     angle[at] = atan2(y, x);
   }
   const double offset = wrapped(angle[0].value() - angle[3].value()) - (angle[0].value() - angle[3].value());
-  quad.d[4] = put(4, Dual(0.5 * (angle[0] - angle[3] + offset)));  // gamma, Eq. (21)
-  quad.turn = put(5, Dual(angle[0] - 0.5 * (angle[0] - angle[3] + offset)));
+  quad.d[4] = put(4, EdgeDual(0.5 * (angle[0] - angle[3] + offset)));  // gamma, Eq. (21)
+  quad.turn = put(5, EdgeDual(angle[0] - 0.5 * (angle[0] - angle[3] + offset)));
   quad.centre = {put(6, centre[0]), put(7, centre[1])};
   return quad;
 }
