@@ -15,7 +15,7 @@
 namespace patchlab {
 namespace {
 
-using EdgeDual = Eigen::AutoDiffScalar<EdgeVector>;
+using AreaDual = Eigen::AutoDiffScalar<EdgeVector>;
 
 // The map from the free numbers of a shape to its edges: all eight, or phi rho_1..rho_4 of a rectangle.
 Eigen::Matrix<double, 8, Eigen::Dynamic, 0, 8, 8> J_edges_free(Corners corners) {
@@ -54,9 +54,9 @@ class SoftEdgeProblem {
 
  private:
   Likelihood area_term(const EdgeVector& edges) const {
-    Edges<EdgeDual> dual;
-    for (int i = 0; i < 8; ++i) dual[i] = EdgeDual(edges[i], 8, i);
-    const Area<EdgeDual> area = area_of<EdgeDual>(dual);
+    Edges<AreaDual> dual;
+    for (int i = 0; i < 8; ++i) dual[i] = AreaDual(edges[i], 8, i);
+    const Area<AreaDual> area = area_of<AreaDual>(dual);
     const double a = area.value.value();
     Likelihood term;
     term.value = a > 0.0 ? -used_ * std::log(a) : -std::numeric_limits<double>::infinity();
