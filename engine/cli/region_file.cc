@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/io/json.h"
+#include "engine/io/text_numbers.h"
 
 namespace patchlab {
 namespace {
@@ -22,12 +23,6 @@ Result<Ids> ids_from_json(std::string_view text, const std::string& name) {
   }
   if (error) return *error;
   return ids;
-}
-
-std::string_view trimmed(std::string_view line) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = line.find_first_not_of(blanks);
-  return first == std::string_view::npos ? "" : line.substr(first, line.find_last_not_of(blanks) - first + 1);
 }
 
 }  // namespace
