@@ -106,7 +106,8 @@ SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) 
 }
 
 // Circular cylinders along the principal axes of the points, each by an algebraic circle across its axis:
-// what points all round a can or a pipe ask for, where no height field exists. z_l towards the viewpoint.
+// what points all round a can or a pipe ask for, where no height field exists. The apex lies on the side of
+// the points, z_l towards the viewpoint.
 std::vector<SurfaceState> algebraic_cylinders(const Samples& samples) {
   const Vector3d mean = weighted_mean(samples);
   Matrix3d scatter = Matrix3d::Zero();
@@ -130,13 +131,17 @@ std::vector<SurfaceState> algebraic_cylinders(const Samples& samples) {
     const Vector2d m = 0.5 * size * solution.head<2>();
     const double radius = std::sqrt(std::max(size * size * solution[2] + m.squaredNorm(), 1e-300));
     const Vector3d centre = mean + across * m;
-    const Vector2d towards = across.transpose() * (samples.viewpoint(0) - centre);
+    const bool all_round = m.norm() < 0.1 * radius;
+    const Vector2d outward =
+        all_round ? Vector2d(across.transpose() * (samples.viewpoint(0) - centre)) : Vector2d(-m);
+    const Vector3d z = across * (outward.norm() > 0.0 ? Vector2d(outward.normalized()) : Vector2d(1.0, 0.0));
     SurfaceState state;
+    state.c = centre + radius * z;
+    const double side = z.dot(samples.viewpoint(0) - state.c) < 0.0 ? -1.0 : 1.0;
     state.R.col(0) = axes.col(i);
-    state.R.col(2) = across * (towards.norm() > 0.0 ? Vector2d(towards.normalized()) : Vector2d(1.0, 0.0));
+    state.R.col(2) = side * z;
     state.R.col(1) = state.R.col(2).cross(state.R.col(0));
-    state.k = {-1.0 / radius, 0.0};
-    state.c = centre + radius * state.R.col(2);
+    state.k = {-side / radius, 0.0};
     cylinders.push_back(state);
   }
   return cylinders;

@@ -45,7 +45,7 @@ std::string png(int bits, int colour) {
   return bytes;
 }
 
-std::string refusal(std::string_view bytes, const ReadOptions& options = millimetres) {
+std::string depth_refusal(std::string_view bytes, const ReadOptions& options = millimetres) {
   const Result<Scan> scan = read_scan_bytes(bytes, "depth", options);
   return scan ? "accepted" : scan.error().message;
 }
@@ -72,37 +72,37 @@ TEST(DepthImage, WhatItDoesNotSayIsAskedForByFlag) {
   ASSERT_FALSE(bare);
   EXPECT_EQ(bare.error().code, ErrorCode::usage);
   EXPECT_THAT(bare.error().message, HasSubstr("--intrinsics fx,fy,cx,cy"));
-  EXPECT_THAT(refusal(pgm(), {.intrinsics = camera}), HasSubstr("give --depth-scale"));
+  EXPECT_THAT(depth_refusal(pgm(), {.intrinsics = camera}), HasSubstr("give --depth-scale"));
   ReadOptions unit = millimetres;
   unit.unit = LengthUnit::mm;
-  EXPECT_THAT(refusal(pgm(), unit), HasSubstr("set by --depth-scale, not by --unit"));
+  EXPECT_THAT(depth_refusal(pgm(), unit), HasSubstr("set by --depth-scale, not by --unit"));
 }
 
 TEST(DepthImage, IntrinsicsOfPicturesOfAnotherSizeAreRefused) {
   ReadOptions other = millimetres;
   other.intrinsics->width = 640;
   other.intrinsics->height = 480;
-  EXPECT_THAT(refusal(pgm(), other),
+  EXPECT_THAT(depth_refusal(pgm(), other),
               HasSubstr("has 3 x 2 pixels, but the intrinsics are those of pictures of 640 x 480"));
 }
 
 TEST(DepthImage, PicturesOfAnotherKindAreRefused) {
-  EXPECT_THAT(refusal(png(8, PNG_COLOR_TYPE_GRAY)), HasSubstr("a grey picture of 8 bits"));
-  EXPECT_THAT(refusal(png(8, PNG_COLOR_TYPE_RGB)), HasSubstr("a colour picture of 8 bits"));
-  EXPECT_THAT(refusal("P5 3 2 255\n123456"), HasSubstr("8 bits a pixel"));
-  EXPECT_THAT(refusal("P6\n3 2\n65535\n"), HasSubstr("PNM family"));
+  EXPECT_THAT(depth_refusal(png(8, PNG_COLOR_TYPE_GRAY)), HasSubstr("a grey picture of 8 bits"));
+  EXPECT_THAT(depth_refusal(png(8, PNG_COLOR_TYPE_RGB)), HasSubstr("a colour picture of 8 bits"));
+  EXPECT_THAT(depth_refusal("P5 3 2 255\n123456"), HasSubstr("8 bits a pixel"));
+  EXPECT_THAT(depth_refusal("P6\n3 2\n65535\n"), HasSubstr("PNM family"));
 }
 
 TEST(DepthImage, DamagedPicturesAreRefusedBeforeMemoryIsTaken) {
-  EXPECT_THAT(refusal(pgm("P5\n3 3\n65535\n")), HasSubstr("12 bytes cannot hold 3 x 3 depths"));
-  EXPECT_THAT(refusal(pgm("P5\n99999 99999\n65535\n")), HasSubstr("are no sides of a depth image"));
-  EXPECT_THAT(refusal("P5\n3\n"), HasSubstr("one is missing"));
+  EXPECT_THAT(depth_refusal(pgm("P5\n3 3\n65535\n")), HasSubstr("12 bytes cannot hold 3 x 3 depths"));
+  EXPECT_THAT(depth_refusal(pgm("P5\n99999 99999\n65535\n")), HasSubstr("are no sides of a depth image"));
+  EXPECT_THAT(depth_refusal("P5\n3\n"), HasSubstr("one is missing"));
   const std::string whole = png(16, PNG_COLOR_TYPE_GRAY);
-  EXPECT_THAT(refusal(whole.substr(0, 50)), HasSubstr("damaged or cut off"));
-  EXPECT_THAT(refusal(whole.substr(0, 20)), HasSubstr("header of the PNG picture is damaged"));
+  EXPECT_THAT(depth_refusal(whole.substr(0, 50)), HasSubstr("damaged or cut off"));
+  EXPECT_THAT(depth_refusal(whole.substr(0, 20)), HasSubstr("header of the PNG picture is damaged"));
   std::string flipped = whole;
   flipped[flipped.size() - 20] ^= 1;  // a checksum no longer holds
-  EXPECT_THAT(refusal(flipped), HasSubstr("damaged"));
+  EXPECT_THAT(depth_refusal(flipped), HasSubstr("damaged"));
 }
 
 void expect_camera(const char* text, bool sized, bool distorted) {

@@ -18,7 +18,7 @@ Scan read(std::string_view text, const ReadOptions& options = {}) {
   return scan ? *std::move(scan) : Scan{};
 }
 
-std::string refusal(std::string_view text, const std::string& name = "mesh") {
+std::string mesh_refusal(std::string_view text, const std::string& name = "mesh") {
   const Result<Scan> scan = read_scan_bytes(text, name);
   return scan ? "accepted" : scan.error().message;
 }
@@ -68,10 +68,10 @@ TEST(MeshFiles, FacesOfAnObjCountFromOneOrFromTheEnd) {
 }
 
 TEST(MeshFiles, AnObjThatIsWrongIsRefusedByLine) {
-  EXPECT_THAT(refusal("v 0 0\n"), HasSubstr("line 1: a vertex has 2 values"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 a 0\n"), HasSubstr("line 2: 'a' in a vertex is not a number"));
-  EXPECT_THAT(refusal("v 0 0 0\nw 1 2 3\n"), HasSubstr("line 2: 'w' is no entry of an OBJ file"));
-  EXPECT_THAT(refusal("o nothing\n"), HasSubstr("holds no vertices"));
+  EXPECT_THAT(mesh_refusal("v 0 0\n"), HasSubstr("line 1: a vertex has 2 values"));
+  EXPECT_THAT(mesh_refusal("v 0 0 0\nv 1 a 0\n"), HasSubstr("line 2: 'a' in a vertex is not a number"));
+  EXPECT_THAT(mesh_refusal("v 0 0 0\nw 1 2 3\n"), HasSubstr("line 2: 'w' is no entry of an OBJ file"));
+  EXPECT_THAT(mesh_refusal("o nothing\n"), HasSubstr("holds no vertices"));
 }
 
 TEST(MeshFiles, OffVerticesHaveTheValuesTheirKeywordSays) {
@@ -81,12 +81,12 @@ TEST(MeshFiles, OffVerticesHaveTheValuesTheirKeywordSays) {
   EXPECT_EQ(scan.point(2), Eigen::Vector3d(1, 2, 1));
   EXPECT_EQ(read("COFF\n1 0 0\n1 2 3 255 0 0 255\n").size(), 1u);
   EXPECT_EQ(read("NOFF\n1 0 0\n1 2 3 0 0 1\n").size(), 1u);
-  EXPECT_THAT(refusal("OFF\n1 0 0\n1 2 3 4\n"), HasSubstr("line 3: a vertex has 4 values, not 3"));
-  EXPECT_THAT(refusal("4OFF\n1 0 0\n1 2 3 4\n"), HasSubstr("another dimension"));
-  EXPECT_THAT(refusal("OFF BINARY\n1 0 0\n"), HasSubstr("binary OFF"));
-  EXPECT_THAT(refusal("OFF\n9 0 0\n1 2 3\n"), HasSubstr("9 vertices and 0 faces do not fit"));
-  EXPECT_THAT(refusal("OFF\n2 0 0\n1.5 2.5 3.5\n"), HasSubstr("ends before its last vertex"));
-  EXPECT_THAT(refusal("OFF\nthree\n"), HasSubstr("no count of vertices"));
+  EXPECT_THAT(mesh_refusal("OFF\n1 0 0\n1 2 3 4\n"), HasSubstr("line 3: a vertex has 4 values, not 3"));
+  EXPECT_THAT(mesh_refusal("4OFF\n1 0 0\n1 2 3 4\n"), HasSubstr("another dimension"));
+  EXPECT_THAT(mesh_refusal("OFF BINARY\n1 0 0\n"), HasSubstr("binary OFF"));
+  EXPECT_THAT(mesh_refusal("OFF\n9 0 0\n1 2 3\n"), HasSubstr("9 vertices and 0 faces do not fit"));
+  EXPECT_THAT(mesh_refusal("OFF\n2 0 0\n1.5 2.5 3.5\n"), HasSubstr("ends before its last vertex"));
+  EXPECT_THAT(mesh_refusal("OFF\nthree\n"), HasSubstr("no count of vertices"));
 }
 
 TEST(MeshFiles, StlCornersAreMergedInBothEncodings) {
@@ -104,13 +104,14 @@ TEST(MeshFiles, StlCornersAreMergedInBothEncodings) {
 
 TEST(MeshFiles, AnStlThatIsWrongIsRefused) {
   const std::string whole = binary_stl({lower, upper});
-  EXPECT_THAT(refusal(whole.substr(0, whole.size() - 1), "a.STL"),
+  EXPECT_THAT(mesh_refusal(whole.substr(0, whole.size() - 1), "a.STL"),
               HasSubstr("promises 2 triangles of 50 bytes, but 99"));
-  EXPECT_THAT(refusal(binary_stl({}), "a.stl"), HasSubstr("no triangles"));
-  EXPECT_THAT(refusal("solid a\nfacet normal 0 0 1\nvertex 0 0 0\nvertex 1 0 0\nendfacet\n"),
+  EXPECT_THAT(mesh_refusal(binary_stl({}), "a.stl"), HasSubstr("no triangles"));
+  EXPECT_THAT(mesh_refusal("solid a\nfacet normal 0 0 1\nvertex 0 0 0\nvertex 1 0 0\nendfacet\n"),
               HasSubstr("line 5: the facet that ends here has 2 vertices"));
-  EXPECT_THAT(refusal("solid a\nfacet normal 0 0 1\nvertex 0 0 0\n"), HasSubstr("ends within a facet"));
-  EXPECT_THAT(refusal("solid a\nfacet normal 0 0 1\nvertex 0 0 x\n"), HasSubstr("line 3: 'x' in a vertex"));
+  EXPECT_THAT(mesh_refusal("solid a\nfacet normal 0 0 1\nvertex 0 0 0\n"), HasSubstr("ends within a facet"));
+  EXPECT_THAT(mesh_refusal("solid a\nfacet normal 0 0 1\nvertex 0 0 x\n"),
+              HasSubstr("line 3: 'x' in a vertex"));
 }
 
 TEST(MeshFiles, MillimetresBecomeMetres) {
