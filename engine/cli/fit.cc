@@ -133,7 +133,9 @@ void add_fit_options(CLI::App& app, FitOptions& options) {
   add_named(app, "--bounds", options.bounds, bounds_method_from_name, "extent|paper",
             "how to bound; follows the method where it is not given");
   add_limits(app, options.limits);
-  add_named(app, "--robust", options.robust, on_off, "on|off", "set outliers aside");
+  add_named(app, "--robust", options.robust, on_off, "on|off", "set outliers aside")
+      ->expected(0, 1)
+      ->default_str("on");
 }
 
 }  // namespace

@@ -13,14 +13,14 @@ namespace patchlab {
 // `names` are what the option takes, for the help and for the message: "extent|paper". `from_name` gives a
 // std::optional.
 template <class T, class FromName>
-void add_named(CLI::App& app, const std::string& option, T& value, FromName from_name,
-               const std::string& names, const std::string& summary) {
+CLI::Option* add_named(CLI::App& app, const std::string& option, T& value, FromName from_name,
+                       const std::string& names, const std::string& summary) {
   const auto parse = [&value, from_name, option, names](const std::string& text) {
     const auto named = from_name(text);
     if (!named) throw CLI::ValidationError(option, "'" + text + "' is none of " + names);
     value = *named;
   };
-  app.add_option_function<std::string>(option, parse, summary)->type_name(names);
+  return app.add_option_function<std::string>(option, parse, summary)->type_name(names);
 }
 
 // What the user says of a scan file: of every verb that takes one.

@@ -64,9 +64,9 @@ std::string reason(const SurfaceFit& fit, const SurfaceFit& best, double differe
     }
     return text;
   }
-  const double chi2_difference = fit.chi2 - best.chi2;
-  if (chi2_difference > difference * 0.5) return "chi-square is " + number(chi2_difference) + " higher";
-  return "its further parameters lower chi-square by " + number(-chi2_difference) + " only";
+  const double higher = fit.cost - best.cost;
+  if (higher > difference * 0.5) return "chi-square is " + number(higher) + " higher";
+  return "its further parameters lower chi-square by " + number(std::max(-higher, 0.0)) + " only";
 }
 
 }  // namespace

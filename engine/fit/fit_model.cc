@@ -13,7 +13,7 @@ namespace {
 std::vector<SurfaceState> first_states(const Samples& samples, const SurfaceModel& model,
                                        const ModelStart& start) {
   if (start.kept && !model.vertex_prior) return {*start.kept};
-  std::vector<SurfaceState> all = starts(samples, model, start.quadratic);
+  std::vector<SurfaceState> all = starts(samples, model, start.two_jet.state);
   if (!start.kept) return all;
   const Vector3d x = start.kept->R.col(0);
   const auto along = [&](const SurfaceState& state) { return std::abs(x.dot(state.R.col(0))); };
@@ -44,15 +44,11 @@ SurfaceFit fit_model(const Samples& samples, const SurfaceModel& model, const Mo
   return fit;
 }
 
-SurfaceFit fit_model_robustly(const Samples& all, const Samples& inliers, const SurfaceModel& model,
-                              const ModelStart& start, double scale) {
-  const SurfaceFit begin = fit_model(inliers, model, start);
-  SurfaceFitOptions tukey;
-  tukey.robust = true;
-  tukey.robust_scale = scale;
-  SurfaceFit fit = fit_surface(all, model, begin.state, tukey, begin.prior);
-  fit.iterations += begin.iterations;
-  return fit;
+std::vector<SurfaceFit> fit_models(const Samples& samples, const std::vector<ModelKind>& kinds,
+                                   const ModelStart& start) {
+  std::vector<SurfaceFit> fits;
+  for (const ModelKind kind : kinds) fits.push_back(fit_model(samples, surface_model(kind), start));
+  return fits;
 }
 
 }  // namespace patchlab

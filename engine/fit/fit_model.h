@@ -13,15 +13,15 @@ SurfaceFit quadratic_fit(Samples& samples, const SurfaceState& plane);
 
 // What the fits of all models start from.
 struct ModelStart {
-  SurfaceState quadratic;            // of the 2-jet
+  SurfaceFit two_jet;
   std::optional<SurfaceState> kept;  // the surface that is refitted: the one start, where there is one
 };
 
 // The best of the model's starts, a paraboloid's with the prior of its vertex.
 SurfaceFit fit_model(const Samples& samples, const SurfaceModel& model, const ModelStart& start);
 
-// Tukey's fit over all points, from the fit of the inliers. `scale` as in robust_scale().
-SurfaceFit fit_model_robustly(const Samples& all, const Samples& inliers, const SurfaceModel& model,
-                              const ModelStart& start, double scale);
+// Each candidate by itself.
+std::vector<SurfaceFit> fit_models(const Samples& samples, const std::vector<ModelKind>& kinds,
+                                   const ModelStart& start);
 
 }  // namespace patchlab

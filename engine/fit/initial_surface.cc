@@ -2,14 +2,28 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <cmath>
+#include <limits>
 
 namespace patchlab {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+// The least x with A x = b, A symmetric and positive semidefinite.
+template <int n>
+Eigen::Matrix<double, n, 1> solve_least(const Eigen::Matrix<double, n, n>& A,
+                                        const Eigen::Matrix<double, n, 1>& b) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> eigen(A);
+  const double least = n * std::numeric_limits<double>::epsilon() * eigen.eigenvalues()[n - 1];
+  Eigen::Matrix<double, n, 1> x = Eigen::Matrix<double, n, 1>::Zero();
+  for (int i = 0; i < n; ++i) {
+    const auto v = eigen.eigenvectors().col(i);
+    if (eigen.eigenvalues()[i] > least) x += v * (v.dot(b) / eigen.eigenvalues()[i]);
+  }
+  return x;
+}
 
 Vector6 monomials(double x, double y) { return {1.0, x, y, 0.5 * x * x, x * y, 0.5 * y * y}; }
 
@@ -25,7 +39,7 @@ struct HeightSums {
     b.noalias() += weight * (q.z() / size) * row;
   }
   Vector6 solve() const {
-    Vector6 a = A.completeOrthogonalDecomposition().solve(b);
+    Vector6 a = solve_least(A, b);
     a[0] *= size;
     a.tail<3>() /= size;
     return a;
@@ -93,7 +107,7 @@ SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) 
     A.noalias() += weight * row * row.transpose();
     b.noalias() += weight * (samples.q[i] / size).squaredNorm() * row;
   }
-  const Eigen::Vector4d solution = A.completeOrthogonalDecomposition().solve(b);
+  const Eigen::Vector4d solution = solve_least(A, b);
   const Vector3d centre = 0.5 * solution.head<3>() * size;
   const double radius = std::sqrt(std::max(size * size * solution[3] + centre.squaredNorm(), 1e-300));
   const Vector3d towards = (centre - weighted_mean(samples)).normalized();  // from the surface to the centre
@@ -127,7 +141,7 @@ std::vector<SurfaceState> algebraic_cylinders(const Samples& samples) {
       A += samples.robust[j] * u.homogeneous() * u.homogeneous().transpose();
       b += samples.robust[j] * u.squaredNorm() * u.homogeneous();
     }
-    const Vector3d solution = A.completeOrthogonalDecomposition().solve(b);
+    const Vector3d solution = solve_least(A, b);
     const Vector2d m = 0.5 * size * solution.head<2>();
     const double radius = std::sqrt(std::max(size * size * solution[2] + m.squaredNorm(), 1e-300));
     const Vector3d centre = mean + across * m;
@@ -162,9 +176,7 @@ SurfaceState with_k(SurfaceState state, double k) {
 
 }  // namespace
 
-Matrix3d turned_to(const Matrix3d& R, const Vector3d& normal) {
-  return Eigen::Quaterniond::FromTwoVectors(R.col(2), normal).toRotationMatrix() * R;
-}
+Matrix3d turned_to(const Matrix3d& R, const Vector3d& normal) { return shortest_turn(R.col(2), normal) * R; }
 
 SurfaceState initial_plane(const Samples& samples) {
   const Vector3d mean = weighted_mean(samples);

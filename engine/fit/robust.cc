@@ -21,50 +21,79 @@ std::vector<std::size_t> draw(Random& random, std::size_t n) {
   return points;
 }
 
-double truncated_cost(const Quadric& quadric, const Samples& samples) {
-  double cost = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double F = quadric_residual(quadric, samples, i);
-    cost += std::min(F * F, flag_limit * flag_limit);
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// One draw's quadric beside all points.
+struct Drawn {
+  Quadric quadric;
+  std::vector<double> sizes;  // |F|
+
+  double truncated_cost() const {
+    double cost = 0.0;
+    for (const double F : sizes) cost += std::min(F * F, flag_limit * flag_limit);
+    return cost;
   }
-  return cost;
+};
+
+Drawn beside(const Quadric& quadric, const Samples& samples) {
+  Drawn drawn{quadric, std::vector<double>(samples.size())};
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    drawn.sizes[i] = std::abs(quadric_residual(quadric, samples, i));
+  }
+  return drawn;
+}
+
+// 1 for the points within a limit; how many those are.
+std::size_t keep_within(Samples& samples, const Quadric& quadric, double limit) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples.robust[i] = std::abs(quadric_residual(quadric, samples, i)) <= limit ? 1.0 : 0.0;
+    kept += samples.robust[i] > 0.0 ? 1 : 0;
+  }
+  return kept;
 }
 
 }  // namespace
 
-void keep_quadric_inliers(Samples& samples, std::uint64_t seed) {
+bool keep_quadric_inliers(Samples& samples, std::uint64_t seed) {
   Random random(seed);
   const SurfaceState plane = initial_plane(samples);
-  Quadric best;
-  double least = std::numeric_limits<double>::infinity();
+  Quadric of_least_cost, of_least_median;
+  double least_cost = std::numeric_limits<double>::infinity(), least_median = least_cost;
   for (int i = 0; i < draws; ++i) {
-    const Quadric quadric = quadric_through(samples, plane, draw(random, samples.size()));
-    const double cost = truncated_cost(quadric, samples);
-    if (cost < least) {
-      least = cost;
-      best = quadric;
+    Drawn drawn = beside(quadric_through(samples, plane, draw(random, samples.size())), samples);
+    if (const double cost = drawn.truncated_cost(); cost < least_cost) {
+      least_cost = cost;
+      of_least_cost = drawn.quadric;
+    }
+    if (const double middle = median(drawn.sizes); middle < least_median) {
+      least_median = middle;
+      of_least_median = drawn.quadric;
     }
   }
-  std::size_t inliers = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples.robust[i] = std::abs(quadric_residual(best, samples, i)) <= flag_limit ? 1.0 : 0.0;
-    inliers += samples.robust[i] > 0.0 ? 1 : 0;
-  }
-  if (2 * inliers < samples.size()) samples.robust.assign(samples.size(), 1.0);  // no quadric holds them
+  if (2 * keep_within(samples, of_least_cost, flag_limit) >= samples.size()) return true;
+  keep_within(samples, of_least_median, least_median);
+  return false;
 }
 
-double robust_scale(const Samples& samples, const SurfaceFit& fit) {
-  constexpr double median_of_normal = 0.6745, holds = 0.8, least = 0.2;
+double residual_scale(const Samples& samples, const SurfaceFit& fit) {
+  constexpr double median_of_normal = 0.6745;
   std::vector<double> sizes;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (samples.robust[i] == 0.0) continue;
     sizes.push_back(
         std::abs(residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]).F));
   }
-  if (sizes.empty()) return 1.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  const double scale = *middle / median_of_normal;
+  return sizes.empty() ? 1.0 : median(sizes) / median_of_normal;
+}
+
+double robust_scale(const Samples& samples, const SurfaceFit& fit) {
+  constexpr double holds = 0.8, least = 0.2;
+  const double scale = residual_scale(samples, fit);
   return scale > holds ? 1.0 : std::max(scale, least);
 }
 

@@ -9,6 +9,7 @@
 #include "engine/fit/paper_steps.h"
 #include "engine/fit/plane_outline.h"
 #include "engine/fit/robust.h"
+#include "engine/fit/robust_fits.h"
 #include "engine/fit/validate.h"
 
 namespace patchlab {
@@ -147,7 +148,7 @@ Result<Workbench> begin_from(const Patch& kept, const Observations& observations
 }
 
 void fit_plane(Workbench& work) {
-  if (work.options.robust) keep_quadric_inliers(work.samples, work.options.seed);
+  if (work.options.robust) work.noise_holds = keep_quadric_inliers(work.samples, work.options.seed);
   if (by_paper(work)) {
     paper_plane(work);
   } else {
@@ -159,17 +160,17 @@ void fit_plane(Workbench& work) {
 
 void fit_surfaces(Workbench& work) {
   if (by_paper(work)) return paper_surfaces(work);
-  const SurfaceFit two_jet = quadratic_fit(work.samples, work.plane);
-  const ModelStart start{two_jet.state, work.kept};
-  work.robust_scale = work.options.robust ? robust_scale(work.samples, two_jet) : 1.0;
-  const Samples inliers = work.samples;
-  if (work.options.robust) std::fill(work.samples.robust.begin(), work.samples.robust.end(), 1.0);
-  for (const ModelKind kind : candidate_models(work.options.surface, work.samples.size())) {
-    const SurfaceModel& model = surface_model(kind);
-    work.fits.push_back(work.options.robust
-                            ? fit_model_robustly(work.samples, inliers, model, start, work.robust_scale)
-                            : fit_model(work.samples, model, start));
-    const SurfaceFit& fit = work.fits.back();
+  const std::vector<ModelKind> kinds = candidate_models(work.options.surface, work.samples.size());
+  const ModelStart start{quadratic_fit(work.samples, work.plane), work.kept};
+  if (!work.options.robust) {
+    work.fits = fit_models(work.samples, kinds, start);
+  } else {
+    RobustFits robust = work.noise_holds ? fit_models_robustly(work.samples, kinds, start)
+                                         : fit_models_falling(work.samples, kinds, start);
+    work.fits = std::move(robust.fits);
+    work.robust_scale = robust.scale;
+  }
+  for (const SurfaceFit& fit : work.fits) {
     work.log.push_back("2. " + words(surface_type(fit)) +
                        line(": chi-square %.2f after %d iterations, curvature (%.4g, %.4g) 1/m", fit.chi2,
                             fit.iterations, fit.state.k[0], fit.state.k[1]));

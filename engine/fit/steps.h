@@ -23,8 +23,9 @@ struct Workbench {
   std::optional<SurfaceState> kept;  // the surface that is refitted, about samples.origin
   std::vector<Finding> notes;        // warnings met on the way
 
-  SurfaceState plane;    // step 1
-  SurfaceFit plane_fit;  //         refitted with covariances, in the paper's method only
+  SurfaceState plane;       // step 1
+  SurfaceFit plane_fit;     //         refitted with covariances, in the paper's method only
+  bool noise_holds = true;  //         half of the points lie on a quadric within the stated noise
   double robust_scale = 1.0;
   std::vector<SurfaceFit> fits;  // step 2: one a candidate model
   Choice choice;                 // step 3

@@ -1,8 +1,8 @@
 #include "engine/pose/rotation.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -101,6 +101,13 @@ Vector3d log_map(const Matrix3d& R) {
   return q.vec() * (2.0 * std::atan2(s, q.w()) / s);
 }
 
+Matrix3d shortest_turn(const Vector3d& from, const Vector3d& to) {
+  const Vector3d x = from.normalized(), cross = x.cross(to);
+  const Vector3d across = cross - x * x.dot(cross);
+  const Vector3d axis = across.isZero(0.0) ? x.unitOrthogonal() : Vector3d(across.normalized());
+  return exp_map(std::atan2(cross.norm(), x.dot(to)) * axis);
+}
+
 Result<Matrix3d> nearest_rotation(const Matrix3d& R) {
   const double error = (R.transpose() * R - Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!R.allFinite() || !(error <= 1e-3)) {
@@ -111,8 +118,7 @@ Result<Matrix3d> nearest_rotation(const Matrix3d& R) {
     return Error{ErrorCode::unreadable, "The matrix is no rotation: its determinant is -1 (a reflection)."};
   }
   if (error <= 1e-9) return R;
-  const Eigen::JacobiSVD<Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return Matrix3d(svd.matrixU() * svd.matrixV().transpose());
+  return Matrix3d(R * Eigen::SelfAdjointEigenSolver<Matrix3d>(R.transpose() * R).operatorInverseSqrt());
 }
 
 Matrix3d left_jacobian(const Vector3d& r) {

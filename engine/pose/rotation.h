@@ -24,6 +24,10 @@ Matrix3d exp_map(const Vector3d& r);
 // At |r| = pi exactly the component with the largest R_ii is positive.
 Vector3d log_map(const Matrix3d& R);
 
+// The shortest rotation that turns the direction of `from` into that of `to`; about some axis across them
+// where they are opposite. Precondition: neither is zero.
+Matrix3d shortest_turn(const Vector3d& from, const Vector3d& to);
+
 // R as it should be: accepted when max|R'R - I| <= 1e-9, projected to the nearest up to 1e-3, else an error.
 Result<Matrix3d> nearest_rotation(const Matrix3d& R);
 

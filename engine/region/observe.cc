@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "engine/pose/rotation.h"
 #include "engine/region/pixel_edges.h"
 
 namespace patchlab {
@@ -25,7 +26,7 @@ bool positive_semi_definite(const Eigen::Matrix3d& cov) {
 
 // A sensor known by its position alone is taken to look along the ray.
 Viewpoint looking_at(const Eigen::Vector3d& position, const Eigen::Vector3d& point) {
-  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), point - position);
+  const Eigen::Quaterniond q(shortest_turn(Eigen::Vector3d::UnitZ(), point - position));
   return {position, {q.x(), q.y(), q.z(), q.w()}, true};
 }
 

@@ -43,7 +43,7 @@ TEST_F(FitVerb, WritesAPatchSetThatReadsBack) {
 TEST_F(FitVerb, GivesTheSameBytesEveryTimeAndOnEveryWayOut) {
   const std::string set = patchlab("fit ball.csv --robust on --json").out;
   EXPECT_EQ(patchlab("fit ball.csv --robust on --json").out, set);
-  EXPECT_EQ(patchlab("fit ball.csv --robust on -o -").out, set);
+  EXPECT_EQ(patchlab("fit ball.csv --robust -o -").out, set);
   patchlab("fit ball.csv --robust on -o set.json");
   EXPECT_EQ(text("set.json"), set);
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/pose/rotation.h"
+
 namespace patchlab::viewer {
 namespace {
 
@@ -25,8 +27,8 @@ struct Turntable {
 
 Turntable turntable(const Vector3d& up) {
   const bool upside_down = up.z() < -1.0 + 1e-12;
-  const Quaterniond up_from_z =
-      upside_down ? Quaterniond(0, 1, 0, 0) : Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up);
+  const Matrix3d up_from_z =
+      upside_down ? Vector3d(1, -1, -1).asDiagonal().toDenseMatrix() : shortest_turn(Vector3d::UnitZ(), up);
   const Vector3d front = up_from_z * -Vector3d::UnitY();
   return {front, up.cross(front)};
 }
@@ -103,7 +105,7 @@ OrbitCamera between(const OrbitCamera& from, const OrbitCamera& to, double part)
   OrbitCamera camera = to;
   const double turn = std::remainder(to.azimuth - from.azimuth, 2.0 * std::numbers::pi);
   camera.pivot = from.pivot + part * (to.pivot - from.pivot);
-  camera.up = Quaterniond::Identity().slerp(part, Quaterniond::FromTwoVectors(from.up, to.up)) * from.up;
+  camera.up = Quaterniond::Identity().slerp(part, Quaterniond(shortest_turn(from.up, to.up))) * from.up;
   camera.azimuth = to.azimuth - (1.0 - part) * turn;
   camera.elevation = mix(from.elevation, to.elevation, part);
   camera.distance = from.distance * std::pow(to.distance / from.distance, part);

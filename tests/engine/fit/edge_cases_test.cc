@@ -239,6 +239,37 @@ TEST(EdgeCase, PointsAllRoundACanGiveItsRadius) {
   }
 }
 
+// Models of the noise are often wrong; half of the points still are of one surface, and the report says it.
+TEST(EdgeCase, RobustFitHoldsWhereTheNoiseIsSaidTenTimesTooSmall) {
+  SeededRandom random;
+  constexpr double sigma = 1e-3, stated = 1e-4;
+  for (const SurfaceRequest surface : {SurfaceRequest::plane, SurfaceRequest::sphere}) {
+    const double kappa = surface == SurfaceRequest::plane ? 0.0 : 5.0;
+    Observations observations;
+    for (int i = 0; i < 1000; ++i) {
+      const Vector2d u(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+      const double height =
+          kappa * u.squaredNorm() / (1.0 + std::sqrt(1.0 - kappa * kappa * u.squaredNorm()));
+      const double stray = i % 4 == 0 ? random.uniform(0.01, 0.1) : 0.0;
+      observations.points.push_back(Vector3d(u.x(), u.y(), 1.0 - height - stray) + sigma * random.normal3());
+      observations.covariances.push_back(stated * stated * Matrix3d::Identity());
+    }
+    FitOptions options;
+    options.surface = surface;
+    options.robust = true;
+    const auto result = fit_patch(observations, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_GE(result->report.outliers.size(), 230u);
+    EXPECT_LE(result->report.outliers.size(), 300u);
+    const auto depth = ray_hit(result->patch, Vector3d::Zero(), Vector3d::UnitZ());
+    ASSERT_TRUE(depth);
+    EXPECT_NEAR(*depth, 1.0, 3e-4);
+    EXPECT_FALSE(result->report.accepted);
+    EXPECT_NE(find(result->report.reasons, "chi_square"), nullptr);
+    EXPECT_NEAR(result->report.chi2 / result->report.dof, 100.0, 20.0);
+  }
+}
+
 TEST(EdgeCase, SelfOccludedBallIsSaidToBeSeenInPart) {
   SeededRandom random;
   Observations observations;

@@ -168,6 +168,19 @@ TEST(Rotation, NearestBranchLeavesNeighboursAlone) {
   EXPECT_EQ(nearest_branch(Vector3d::Zero(), r).r, Vector3d::Zero());
 }
 
+TEST(Rotation, ShortestTurnTakesOneDirectionToTheOther) {
+  SeededRandom random;
+  const std::vector<Vector3d> all = scaled(directions(random), {1.0, -1.0, 2.5});
+  for (const Vector3d& from : all) {
+    for (const Vector3d& to : all) {
+      const Vector3d a = from.normalized(), b = to.normalized();
+      const Vector3d r = log_map(shortest_turn(from, to));
+      EXPECT_LT((exp_map(r) * a - b).norm(), 1e-14) << from.transpose() << " to " << to.transpose();
+      EXPECT_NEAR(r.norm(), std::atan2(a.cross(b).norm(), a.dot(b)), 1e-14);
+    }
+  }
+}
+
 TEST(NearestRotation, AcceptsRotationsAsTheyAre) {
   SeededRandom random;
   const Matrix3d R = exp_map(random.normal3());

@@ -2,8 +2,11 @@
 // it.
 #pragma once
 
+#include <stdlib.h>
+
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "engine/base/file.h"
@@ -32,10 +35,10 @@ inline Scan ball_scan() {
 // A folder of its own for each test, taken away at the end.
 class TestFolder {
  public:
-  explicit TestFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("patchlab-" + name)) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+  TestFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "patchlab_viewer_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no folder " + pattern);
+    path_ = pattern;
   }
   TestFolder(const TestFolder&) = delete;
   TestFolder& operator=(const TestFolder&) = delete;

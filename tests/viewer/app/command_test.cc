@@ -20,8 +20,6 @@ struct Ran {
 
 class CommandTest : public testing::Test {
  protected:
-  CommandTest() : folder_(testing::UnitTest::GetInstance()->current_test_info()->name()) {}
-
   Ran run(const std::string& arguments) const {
     const std::filesystem::path log = folder_.path() / "stderr";
     const std::string line = "XDG_STATE_HOME='" + (folder_.path() / "state").string() +

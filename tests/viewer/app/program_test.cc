@@ -73,7 +73,7 @@ constexpr double well_inside = 0.062;
 
 class ProgramTest : public testing::TestWithParam<Look> {
  protected:
-  ProgramTest() : folder_(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) {
+  ProgramTest() {
     program_.app().open(folder_.ball());
     program_.settle();
   }
@@ -225,7 +225,7 @@ TEST_P(ProgramTest, ThePictureShowsTheScanInTheViewAndTextInThePanels) {
 }
 
 TEST(EmptyProgram, GreetsAndOffersToOpenAScan) {
-  const TestFolder folder("empty_program");
+  const TestFolder folder;
   Program program(folder.path(), {1.0f, ThemeChoice::dark});
   program.settle();
   EXPECT_TRUE(program.app().widgets().contains("inspector/open"));

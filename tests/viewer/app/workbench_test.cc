@@ -14,7 +14,7 @@ namespace {
 
 class WorkbenchTest : public testing::Test {
  protected:
-  WorkbenchTest() : folder_(testing::UnitTest::GetInstance()->current_test_info()->name()) {
+  WorkbenchTest() {
     bench_.choose({SurfaceRequest::sphere, true});
     bench_.open(folder_.ball());
     finish();
@@ -263,7 +263,7 @@ TEST_F(WorkbenchTest, AJournalThatCannotBeReplayedLeavesNoCopy) {
 }
 
 TEST(WorkbenchWithoutJournals, LeavesTheJournalItShowsAsItIs) {
-  const TestFolder folder("picture_of_a_journal");
+  const TestFolder folder;
   std::filesystem::path journal;
   {
     Workbench bench({folder.path(), true}, [] {});
