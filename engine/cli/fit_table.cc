@@ -62,7 +62,9 @@ std::string report_rows(const FitReport& report) {
   text += format("  residual     %.2f mm rms, coverage %.0f %%\n", 1e3 * report.residual_rms,
                  100.0 * report.coverage);
   text += "  verdict      " + report.verdict + "\n";
-  for (const Finding& reason : report.reasons) text += "  reason       " + reason.sentence + "\n";
+  for (std::size_t i = 1; i < report.reasons.size(); ++i) {  // the verdict holds the first
+    text += "  reason       " + report.reasons[i].sentence + "\n";
+  }
   for (const Finding& warning : report.warnings) text += "  warning      " + warning.sentence + "\n";
   if (report.candidates.size() < 2) return text;
   text += "  compared     chi2 + p ln N; the least is taken\n";

@@ -99,7 +99,7 @@ struct FitReport {
   double p_value = 0.0;
   int iterations = 0;
   bool converged = false;
-  double residual_rms = 0.0;  // m, orthogonal distance to the bounded patch's surface
+  double residual_rms = 0.0;  // m, of the points' distance to the bounded patch
   double coverage = 0.0;      // in [0, 1]
   bool accepted = false;
   std::vector<Finding> reasons;            // why it was not accepted

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
 #include "engine/base/chi_square.h"
-#include "engine/patch/surface.h"
+#include "engine/fit/coverage.h"
 
 namespace patchlab {
 namespace {
@@ -15,84 +14,6 @@ std::string text(const char* format, double a, double b = 0.0) {
   char buffer[256];
   std::snprintf(buffer, sizeof buffer, format, a, b);
   return buffer;
-}
-
-// Cells about the patch: what area of each is inside the bound, and the points it holds.
-class CellGrid {
- public:
-  CellGrid(const Boundary& bound, const Boundary& doubtless, double side, const Vector2d& reach)
-      : bound_(bound),
-        doubtless_(doubtless),
-        side_(side),
-        columns_(count(reach.x())),
-        rows_(count(reach.y())) {
-    inside_.resize(static_cast<std::size_t>(columns_ * rows_));
-    outside_ = inside_;
-  }
-  void add(const Vector2d& u, double points) {
-    const int column = cell(u.x(), columns_), row = cell(u.y(), rows_);
-    if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return;
-    auto& counts = contains(doubtless_, u) ? inside_ : outside_;
-    counts[static_cast<std::size_t>(row * columns_ + column)] += points;
-  }
-  double score(double expected_per_cell) const {
-    int good = 0, counted = 0;
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        const auto at = static_cast<std::size_t>(row * columns_ + column);
-        const double share = share_inside(column, row);
-        if (share == 0.0 && outside_[at] == 0.0) continue;
-        ++counted;
-        const bool filled = inside_[at] >= std::round(0.5 * share * expected_per_cell);
-        const bool kept = outside_[at] <= std::round(0.5 * (1.0 - share) * expected_per_cell);
-        if (filled && kept) ++good;
-      }
-    }
-    return counted == 0 ? 0.0 : static_cast<double>(good) / counted;
-  }
-
- private:
-  int count(double reach) const { return 2 * static_cast<int>(std::ceil(reach / side_)); }
-  int cell(double u, int cells) const { return static_cast<int>(std::floor(u / side_)) + cells / 2; }
-  double share_inside(int column, int row) const {
-    constexpr int fine = 6;
-    int hits = 0;
-    for (int i = 0; i < fine * fine; ++i) {
-      const double x = column - columns_ / 2 + (i % fine + 0.5) / fine,
-                   y = row - rows_ / 2 + (i / fine + 0.5) / fine;
-      hits += contains(bound_, Vector2d(side_ * x, side_ * y)) ? 1 : 0;
-    }
-    return hits / static_cast<double>(fine * fine);
-  }
-
-  Boundary bound_, doubtless_;  // outside the latter is outside beyond the outline's own doubt
-  double side_;
-  int columns_, rows_;
-  std::vector<double> inside_, outside_;
-};
-
-// The outline with every length longer by two of its standard deviations.
-Boundary beyond_doubt(const Patch& patch) {
-  Boundary grown = boundary(patch);
-  if (!patch.covariance_local) return grown;
-  const Eigen::Index lengths = grown.type == BoundaryType::convex_quad ? 4 : grown.d.size();
-  for (Eigen::Index i = 0; i < lengths; ++i) {
-    grown.d[i] += 2.0 * std::sqrt(std::max((*patch.covariance_local)(i, i), 0.0));
-  }
-  return grown;
-}
-
-double orthogonal_rms(const Samples& samples, const SurfaceFit& fit) {
-  const Vector3d kappa = k3(fit.model, fit.state.k);
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples.robust[i] == 0.0) continue;
-    const Vector3d q = to_local(fit.state, samples.q[i]);
-    sum += (q - foot_point(q, Matrix3d::Identity(), kappa).x).squaredNorm();
-    ++count;
-  }
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
 }
 
 double depth_sigma(const Samples& samples, const Patch& patch) {
@@ -260,52 +181,40 @@ void warn_outliers(const FitOptions& options, const Patch& patch, FitReport& rep
   }
 }
 
+bool overstates_noise(const FitReport& report) {
+  return report.chi2 / report.dof < 1.0 - 5.0 * std::sqrt(2.0 / report.dof);
+}
+
+void warn_overstated_noise(FitReport& report) {
+  if (!overstates_noise(report)) return;
+  const double ratio = report.chi2 / report.dof;
+  report.warnings.push_back(
+      {"noise_overstated", ratio, 1.0 - 5.0 * std::sqrt(2.0 / report.dof),
+       text("Residuals are only %.2g of what the noise model says.", std::sqrt(ratio))});
+}
+
 std::string verdict(const FitReport& report) {
   if (!report.reasons.empty()) return "Not accepted: " + report.reasons.front().sentence;
-  const double ratio = report.chi2 / report.dof;
-  if (ratio < 1.0 - 5.0 * std::sqrt(2.0 / report.dof)) {
-    return text(
-        "Residuals are only %.2g of what the noise model says: accepted, with sigmas that are larger than need be.",
-        std::sqrt(ratio));
-  }
+  if (overstates_noise(report)) return "Accepted, with standard deviations that are larger than need be.";
   return "Agrees with the noise model.";
 }
 
 }  // namespace
 
-double coverage(const Patch& patch, const std::vector<Vector3d>& points_patch,
-                const std::vector<double>& weights) {
-  constexpr double points_per_cell = 12.0, most_cells = 50.0;
-  const Boundary bound = boundary(patch);
-  const auto used =
-      static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; }));
-  const double cells = std::clamp(used / points_per_cell, 4.0, most_cells);
-  const double side = std::sqrt(area(bound) / cells);
-  Vector2d reach = extent(bound);
-  for (std::size_t i = 0; i < points_patch.size(); ++i) {
-    if (weights[i] > 0.0) reach = reach.cwiseMax(points_patch[i].head<2>().cwiseAbs());
-  }
-  reach = reach.cwiseMin(3.0 * extent(bound));
-  CellGrid grid(bound, beyond_doubt(patch), side, reach);
-  for (std::size_t i = 0; i < points_patch.size(); ++i) {
-    if (weights[i] > 0.0) grid.add(points_patch[i].head<2>(), used * weights[i]);
-  }
-  return grid.score(used / cells);
-}
-
 void validate_fit(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet, const Patch& patch,
                   const FitOptions& options, FitReport& report) {
   report.p_value = report.dof > 0 ? chi_square_p_value(report.chi2, report.dof) : 1.0;
-  report.residual_rms = orthogonal_rms(samples, fit);
-  std::vector<Vector3d> points;
-  points.reserve(feet.x.size());
+  std::vector<Vector3d> points, feet_patch;
   const Pose pose = world_from_patch(patch);
-  for (const Vector3d& x : feet.x) {
-    points.push_back(apply_inverse(pose, samples.origin + fit.state.c + fit.state.R * x));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    points.push_back(apply_inverse(pose, samples.origin + samples.q[i]));
+    feet_patch.push_back(apply_inverse(pose, samples.origin + fit.state.c + fit.state.R * feet.x[i]));
   }
-  report.coverage = coverage(patch, points, feet.weight);
+  report.residual_rms = distance_rms(patch, points, samples.robust);
+  report.coverage = coverage(patch, feet_patch, feet.weight);
   check_type(patch, options.surface, report);
   check_limits(patch, options.limits, report);
+  warn_overstated_noise(report);
   warn_few_points(fit, report);
   warn_curvature(samples, patch, report);
   warn_orientation(patch, report);

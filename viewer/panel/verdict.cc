@@ -29,7 +29,7 @@ Tone tone_of(const Theme& theme, const FitReport& report) {
 
 const char* headline(const FitReport& report) {
   if (!report.accepted) return "Not accepted";
-  return has_doubts(report) ? "Agrees with the noise model, but" : "Agrees with the noise model";
+  return has_doubts(report) ? "Accepted, but" : "Agrees with the noise model";
 }
 
 std::string numbers_of(const FitReport& report) {

@@ -1,0 +1,134 @@
+#include "engine/fit/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/fit/distance.h"
+#include "engine/patch/surface.h"
+
+namespace patchlab {
+namespace {
+
+// Cells about the patch: what area of each is inside the bound, and the points it holds.
+class CellGrid {
+ public:
+  CellGrid(const Boundary& bound, const Boundary& doubtless, double side, const Vector2d& reach)
+      : bound_(bound),
+        doubtless_(doubtless),
+        side_(side),
+        columns_(count(reach.x())),
+        rows_(count(reach.y())) {
+    inside_.resize(static_cast<std::size_t>(columns_ * rows_));
+    outside_ = inside_;
+  }
+  void add(const Vector2d& u, double points) {
+    const int column = cell(u.x(), columns_), row = cell(u.y(), rows_);
+    if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return;
+    auto& counts = contains(doubtless_, u) ? inside_ : outside_;
+    counts[static_cast<std::size_t>(row * columns_ + column)] += points;
+  }
+  double score(double expected_per_cell) const {
+    int good = 0, counted = 0;
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        const auto at = static_cast<std::size_t>(row * columns_ + column);
+        const double share = share_inside(column, row);
+        if (share == 0.0 && outside_[at] == 0.0) continue;
+        ++counted;
+        const bool filled = inside_[at] >= std::round(0.5 * share * expected_per_cell);
+        const bool kept = outside_[at] <= std::round(0.5 * (1.0 - share) * expected_per_cell);
+        if (filled && kept) ++good;
+      }
+    }
+    return counted == 0 ? 0.0 : static_cast<double>(good) / counted;
+  }
+
+ private:
+  int count(double reach) const { return 2 * static_cast<int>(std::ceil(reach / side_)); }
+  int cell(double u, int cells) const { return static_cast<int>(std::floor(u / side_)) + cells / 2; }
+  double share_inside(int column, int row) const {
+    constexpr int fine = 6;
+    int hits = 0;
+    for (int i = 0; i < fine * fine; ++i) {
+      const double x = column - columns_ / 2 + (i % fine + 0.5) / fine,
+                   y = row - rows_ / 2 + (i / fine + 0.5) / fine;
+      hits += contains(bound_, Vector2d(side_ * x, side_ * y)) ? 1 : 0;
+    }
+    return hits / static_cast<double>(fine * fine);
+  }
+
+  Boundary bound_, doubtless_;  // outside the latter is outside beyond the outline's own doubt
+  double side_;
+  int columns_, rows_;
+  std::vector<double> inside_, outside_;
+};
+
+// The outline with every length longer by two of its standard deviations.
+Boundary beyond_doubt(const Patch& patch) {
+  Boundary grown = boundary(patch);
+  if (!patch.covariance_local) return grown;
+  const Eigen::Index lengths = grown.type == BoundaryType::convex_quad ? 4 : grown.d.size();
+  for (Eigen::Index i = 0; i < lengths; ++i) {
+    grown.d[i] += 2.0 * std::sqrt(std::max((*patch.covariance_local)(i, i), 0.0));
+  }
+  return grown;
+}
+
+// The outline as a closed curve on the surface.
+std::vector<Vector3d> rim(const Boundary& bound, const Vector3d& kappa) {
+  constexpr int points = 128;
+  std::vector<Vector3d> curve;
+  for (const Vector2d& u : outline(bound, points)) curve.emplace_back(u.x(), u.y(), height(u, kappa));
+  return curve;
+}
+
+double squared_distance(const Vector3d& q, const std::vector<Vector3d>& curve) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const Vector3d &a = curve[i], along = curve[(i + 1) % curve.size()] - a;
+    const double s = std::clamp(along.dot(q - a) / along.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (q - a - s * along).squaredNorm());
+  }
+  return least;
+}
+
+}  // namespace
+
+double coverage(const Patch& patch, const std::vector<Vector3d>& feet_patch,
+                const std::vector<double>& weights) {
+  constexpr double points_per_cell = 12.0, most_cells = 50.0;
+  const Boundary bound = boundary(patch);
+  const auto used =
+      static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; }));
+  const double cells = std::clamp(used / points_per_cell, 4.0, most_cells);
+  const double side = std::sqrt(area(bound) / cells);
+  Vector2d reach = extent(bound);
+  for (std::size_t i = 0; i < feet_patch.size(); ++i) {
+    if (weights[i] > 0.0) reach = reach.cwiseMax(feet_patch[i].head<2>().cwiseAbs());
+  }
+  reach = reach.cwiseMin(3.0 * extent(bound));
+  CellGrid grid(bound, beyond_doubt(patch), side, reach);
+  for (std::size_t i = 0; i < feet_patch.size(); ++i) {
+    if (weights[i] > 0.0) grid.add(feet_patch[i].head<2>(), used * weights[i]);
+  }
+  return grid.score(used / cells);
+}
+
+double distance_rms(const Patch& patch, const std::vector<Vector3d>& points_patch,
+                    const std::vector<double>& weights) {
+  const Boundary bound = boundary(patch);
+  const Vector3d kappa = k3(patch);
+  const std::vector<Vector3d> curve = rim(bound, kappa);
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points_patch.size(); ++i) {
+    if (weights[i] == 0.0) continue;
+    const Vector3d &q = points_patch[i], x = foot_point(q, Matrix3d::Identity(), kappa).x;
+    sum += contains(bound, x.head<2>()) ? (q - x).squaredNorm() : squared_distance(q, curve);
+    ++count;
+  }
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
+}
+
+}  // namespace patchlab
