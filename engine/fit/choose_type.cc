@@ -47,9 +47,7 @@ std::string number(double value) {
   return text;
 }
 
-double curvature_sigma(const SurfaceFit& fit) {
-  return std::sqrt(fit.A.ldlt().solve(StepMatrix::Identity(fit.A.rows(), fit.A.cols()))(0, 0));
-}
+double curvature_sigma(const SurfaceFit& fit) { return std::sqrt(chart_covariance(fit)(0, 0)); }
 
 // Why this candidate is not (or is) what the points ask for, against the best one.
 std::string reason(const SurfaceFit& fit, const SurfaceFit& best, double difference) {

@@ -105,6 +105,10 @@ std::vector<SurfaceState> worth_trying(const Samples& samples, const SurfaceMode
 
 }  // namespace
 
+ChartMatrix chart_covariance(const SurfaceFit& fit) {
+  return spread(fit.model, StepMatrix(fit.A.ldlt().solve(StepMatrix::Identity(fit.A.rows(), fit.A.cols()))));
+}
+
 double tukey_weight(double F) {
   const double inside = 1.0 - std::min(F * F / (tukey_constant * tukey_constant), 1.0);
   return inside * inside;

@@ -32,6 +32,9 @@ struct SurfaceFit {
   std::optional<VertexPrior> prior;
 };
 
+// A^-1 in the whole chart: the covariance of the step where residuals are of unit variance; zero where held.
+ChartMatrix chart_covariance(const SurfaceFit& fit);
+
 struct SurfaceFitOptions {
   Distance distance = Distance::exact;
   bool robust = false;        // Tukey's loss, 4.685 standard deviations

@@ -1,29 +1,16 @@
 #include "engine/fit/initial_surface.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
+#include <numbers>
+
+#include "engine/fit/solve_least.h"
 
 namespace patchlab {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-// The least x with A x = b, A symmetric and positive semidefinite.
-template <int n>
-Eigen::Matrix<double, n, 1> solve_least(const Eigen::Matrix<double, n, n>& A,
-                                        const Eigen::Matrix<double, n, 1>& b) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> eigen(A);
-  const double least = n * std::numeric_limits<double>::epsilon() * eigen.eigenvalues()[n - 1];
-  Eigen::Matrix<double, n, 1> x = Eigen::Matrix<double, n, 1>::Zero();
-  for (int i = 0; i < n; ++i) {
-    const auto v = eigen.eigenvectors().col(i);
-    if (eigen.eigenvalues()[i] > least) x += v * (v.dot(b) / eigen.eigenvalues()[i]);
-  }
-  return x;
-}
 
 Vector6 monomials(double x, double y) { return {1.0, x, y, 0.5 * x * x, x * y, 0.5 * y * y}; }
 
@@ -83,16 +70,16 @@ SurfaceState reframed(const SurfaceState& frame, const Vector6& a) {
   return next;
 }
 
-// Axes along the eigenvectors of the shape operator, |k_x| <= |k_y|.
+// Axes along the principal directions of the shape operator, |k_x| <= |k_y|.
 SurfaceState principal(const SurfaceState& frame, const Vector6& a) {
-  const Matrix2d H = (Matrix2d() << a[3], a[4], a[4], a[5]).finished();
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(H);
-  const int y = std::abs(eigen.eigenvalues()[1]) >= std::abs(eigen.eigenvalues()[0]) ? 1 : 0;
-  const Vector2d x_axis = eigen.eigenvectors().col(1 - y);
+  const double mean = 0.5 * (a[3] + a[5]), apart = std::hypot(0.5 * (a[3] - a[5]), a[4]);
+  const double of_larger = 0.5 * std::atan2(2.0 * a[4], a[3] - a[5]);
+  const bool x_is_larger = std::abs(mean + apart) < std::abs(mean - apart);
+  const double angle = x_is_larger ? of_larger : of_larger + 0.5 * std::numbers::pi;
   SurfaceState state = frame;
-  state.R.col(0) = (frame.R.leftCols<2>() * x_axis).normalized();
+  state.R.col(0) = frame.R.leftCols<2>() * Vector2d(std::cos(angle), std::sin(angle));
   state.R.col(1) = frame.R.col(2).cross(state.R.col(0));
-  state.k = {eigen.eigenvalues()[1 - y], eigen.eigenvalues()[y]};
+  state.k = x_is_larger ? Vector2d(mean + apart, mean - apart) : Vector2d(mean - apart, mean + apart);
   return state;
 }
 

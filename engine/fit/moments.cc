@@ -1,6 +1,5 @@
 #include "engine/fit/moments.h"
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 
@@ -35,10 +34,6 @@ Motion motion(const Residual& r, const SurfaceFit& fit, const Vector3d& q, const
 using JointColumns = Eigen::Matrix<double, joint_size, 3>;
 using PlaneColumns = Eigen::Matrix<double, plane_size, 3>;
 
-ChartMatrix inverse_of(const SurfaceFit& fit) {
-  return spread(fit.model, StepMatrix(fit.A.ldlt().solve(StepMatrix::Identity(fit.A.rows(), fit.A.cols()))));
-}
-
 // The chart rows that a plane frees: w_x, w_y, t_z.
 constexpr std::array<int, plane_size> plane_rows = {2, 3, 7};
 
@@ -66,12 +61,12 @@ ChartMatrix prior_information(const SurfaceFit& fit) {
 // T of D = T B: the fits' own solves, and the moments carried along with the surface.
 JointMatrix solve_all(const SurfaceFit& fit, const SurfaceFit* plane, const Matrix98& M) {
   JointMatrix T = JointMatrix::Zero();
-  const ChartMatrix A_inverse = inverse_of(fit);
+  const ChartMatrix A_inverse = chart_covariance(fit);
   T.topLeftCorner<chart_size, chart_size>() = -A_inverse;
   T.bottomLeftCorner<moments_size, chart_size>() = -M * A_inverse;
   T.bottomRightCorner<moments_size, moments_size>().setIdentity();
   if (plane == nullptr) return T;
-  const ChartMatrix plane_inverse = inverse_of(*plane);
+  const ChartMatrix plane_inverse = chart_covariance(*plane);
   for (int i = 0; i < plane_size; ++i) {
     for (int j = 0; j < plane_size; ++j) {
       T(plane_at + i, plane_at + j) =

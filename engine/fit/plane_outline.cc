@@ -56,10 +56,9 @@ Patch quad_patch(const Samples& samples, const SurfaceFit& fit, const FootPoints
   const SoftShape shape = soft_edges(samples, fit, feet, Corners::free);
   const EdgeQuad quad = quad_of_edges(moved_out(shape.edges, shape.inset));
   const EdgeMatrix J_quad_edges = quad_of_edges(shape.edges).J_quad_edges;
-  const StepMatrix A_inverse = fit.A.ldlt().solve(StepMatrix::Identity(fit.A.rows(), fit.A.cols()));
   Eigen::Matrix<double, 8 + chart_size, 8 + chart_size> cov = decltype(cov)::Zero();
   cov.topLeftCorner<8, 8>() = J_quad_edges * shape.covariance * J_quad_edges.transpose();
-  cov.bottomRightCorner<chart_size, chart_size>() = spread(fit.model, A_inverse);
+  cov.bottomRightCorner<chart_size, chart_size>() = chart_covariance(fit);
   auto J = J_quad_local(quad);
   J.topRows<4>() *= std::sqrt(containment);
   const PatchMatrix cov_local = J * cov * J.transpose();
