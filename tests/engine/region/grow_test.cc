@@ -1,0 +1,115 @@
+#include "engine/region/grow.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/engine/region/layers.h"
+
+namespace patchlab {
+namespace {
+
+constexpr int sheet = sheet_side * sheet_side;
+constexpr std::uint32_t middle = sheet / 2;
+
+Scan two_sheets() {
+  Scan scan;
+  add_sheet(scan, 0.0);
+  add_sheet(scan, -0.1);
+  return scan;
+}
+
+PointIds range(std::uint32_t from, std::uint32_t to) {
+  PointIds ids(to - from);
+  std::iota(ids.begin(), ids.end(), from);
+  return ids;
+}
+
+TEST(Invert, GivesTheOtherFinitePoints) {
+  Scan scan = two_sheets();
+  EXPECT_EQ(invert(scan, range(0, sheet)), range(sheet, 2 * sheet));
+  scan.finite[sheet] = 0;
+  EXPECT_EQ(invert(scan, range(0, sheet)), range(sheet + 1, 2 * sheet));
+  EXPECT_TRUE(invert(scan, range(0, 2 * sheet)).empty());
+}
+
+TEST(Grow, AddsTheRingAround) {
+  const Scan scan = two_sheets();
+  const PointIds ring = grow(scan, {middle}, 1);
+  EXPECT_THAT(
+      ring, testing::ElementsAre(middle - sheet_side - 1, middle - sheet_side, middle - sheet_side + 1,
+                                 middle - 1, middle, middle + 1, middle + sheet_side - 1, middle + sheet_side,
+                                 middle + sheet_side + 1));
+  EXPECT_EQ(grow(scan, {middle}, 3).size(), 49u);
+  EXPECT_EQ(grow(scan, ring, 1), grow(scan, {middle}, 2));
+}
+
+TEST(Shrink, TakesTheRingOff) {
+  const Scan scan = two_sheets();
+  EXPECT_EQ(shrink(scan, grow(scan, {middle}, 3), 1), grow(scan, {middle}, 2));
+  EXPECT_EQ(shrink(scan, grow(scan, {middle}, 3), 3), PointIds{middle});
+  EXPECT_TRUE(shrink(scan, {middle}, 1).empty());
+}
+
+TEST(Flood, TakesTheSheetThatTheSeedIsOn) {
+  const Scan scan = two_sheets();
+  const Result<PointIds> ids = flood(scan, {0.01, 0.02, -0.001}, {});
+  ASSERT_TRUE(ids);
+  EXPECT_EQ(*ids, range(0, sheet));
+}
+
+TEST(Flood, StopsAtAFold) {
+  Scan scan;
+  add_sheet(scan, 0.0, 1.4);
+  const Result<PointIds> ids = flood(scan, {-0.05, 0.0, 0.0}, {});
+  ASSERT_TRUE(ids);
+  EXPECT_GT(ids->size(), 0.40 * sheet);
+  EXPECT_LT(ids->size(), 0.60 * sheet);
+  for (const std::uint32_t id : *ids) EXPECT_LE(scan.positions[id].z(), 0.02F);
+}
+
+TEST(Flood, GoesRoundASmoothBendUpToItsLimit) {
+  Scan scan;  // a half cylinder of 0.1 m radius
+  for (int row = 0; row < 60; ++row) {
+    for (int i = 0; i <= 100; ++i) {
+      const double angle = 0.0314159 * i;
+      add_point(scan, {0.1 * std::cos(angle), 0.003 * row, 0.1 * std::sin(angle)});
+    }
+  }
+  const Eigen::Vector3d top(0.0, 0.09, 0.1);
+  FloodLimits limits;
+  limits.from_seed = 0.5;
+  const Result<PointIds> cap = flood(scan, top, limits);
+  limits.from_seed.reset();
+  const Result<PointIds> all = flood(scan, top, limits);
+  ASSERT_TRUE(cap && all);
+  EXPECT_EQ(all->size(), scan.size());
+  EXPECT_NEAR(static_cast<double>(cap->size()), static_cast<double>(scan.size()) / 3.14159,
+              0.08 * static_cast<double>(scan.size()));
+}
+
+TEST(Linked, TakesAllThatIsSmoothlyConnectedWithAnyPoint) {
+  const Scan scan = two_sheets();
+  const Result<PointIds> one = linked(scan, {3, 4}), both = linked(scan, {3, sheet + 5});
+  ASSERT_TRUE(one && both);
+  EXPECT_EQ(*one, range(0, sheet));
+  EXPECT_EQ(*both, range(0, 2 * sheet));
+}
+
+TEST(Linked, CanBeCancelled) {
+  const Result<PointIds> ids = linked(two_sheets(), {3}, [](double) { return false; });
+  ASSERT_FALSE(ids);
+  EXPECT_EQ(ids.error().code, ErrorCode::cancelled);
+}
+
+TEST(Grown, OfNothingIsNothing) {
+  const Scan scan = two_sheets();
+  EXPECT_TRUE(grow(scan, {}, 2).empty());
+  EXPECT_TRUE(shrink(scan, {}, 2).empty());
+  EXPECT_TRUE(linked(scan, {})->empty());
+  EXPECT_TRUE(flood({}, {0, 0, 0}, {})->empty());
+}
+
+}  // namespace
+}  // namespace patchlab
