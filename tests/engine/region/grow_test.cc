@@ -10,8 +10,7 @@
 namespace patchlab {
 namespace {
 
-constexpr int sheet = sheet_side * sheet_side;
-constexpr std::uint32_t middle = sheet / 2;
+constexpr std::uint32_t middle = sheet_points / 2;
 
 Scan two_sheets() {
   Scan scan;
@@ -28,10 +27,10 @@ PointIds range(std::uint32_t from, std::uint32_t to) {
 
 TEST(Invert, GivesTheOtherFinitePoints) {
   Scan scan = two_sheets();
-  EXPECT_EQ(invert(scan, range(0, sheet)), range(sheet, 2 * sheet));
-  scan.finite[sheet] = 0;
-  EXPECT_EQ(invert(scan, range(0, sheet)), range(sheet + 1, 2 * sheet));
-  EXPECT_TRUE(invert(scan, range(0, 2 * sheet)).empty());
+  EXPECT_EQ(invert(scan, range(0, sheet_points)), range(sheet_points, 2 * sheet_points));
+  scan.finite[sheet_points] = 0;
+  EXPECT_EQ(invert(scan, range(0, sheet_points)), range(sheet_points + 1, 2 * sheet_points));
+  EXPECT_TRUE(invert(scan, range(0, 2 * sheet_points)).empty());
 }
 
 TEST(Grow, AddsTheRingAround) {
@@ -56,7 +55,7 @@ TEST(Flood, TakesTheSheetThatTheSeedIsOn) {
   const Scan scan = two_sheets();
   const Result<PointIds> ids = flood(scan, {0.01, 0.02, -0.001}, {});
   ASSERT_TRUE(ids);
-  EXPECT_EQ(*ids, range(0, sheet));
+  EXPECT_EQ(*ids, range(0, sheet_points));
 }
 
 TEST(Flood, StopsAtAFold) {
@@ -64,8 +63,8 @@ TEST(Flood, StopsAtAFold) {
   add_sheet(scan, 0.0, 1.4);
   const Result<PointIds> ids = flood(scan, {-0.05, 0.0, 0.0}, {});
   ASSERT_TRUE(ids);
-  EXPECT_GT(ids->size(), 0.40 * sheet);
-  EXPECT_LT(ids->size(), 0.60 * sheet);
+  EXPECT_GT(ids->size(), 0.40 * sheet_points);
+  EXPECT_LT(ids->size(), 0.60 * sheet_points);
   for (const std::uint32_t id : *ids) EXPECT_LE(scan.positions[id].z(), 0.02F);
 }
 
@@ -91,10 +90,10 @@ TEST(Flood, GoesRoundASmoothBendUpToItsLimit) {
 
 TEST(Linked, TakesAllThatIsSmoothlyConnectedWithAnyPoint) {
   const Scan scan = two_sheets();
-  const Result<PointIds> one = linked(scan, {3, 4}), both = linked(scan, {3, sheet + 5});
+  const Result<PointIds> one = linked(scan, {3, 4}), both = linked(scan, {3, sheet_points + 5});
   ASSERT_TRUE(one && both);
-  EXPECT_EQ(*one, range(0, sheet));
-  EXPECT_EQ(*both, range(0, 2 * sheet));
+  EXPECT_EQ(*one, range(0, sheet_points));
+  EXPECT_EQ(*both, range(0, 2 * sheet_points));
 }
 
 TEST(Linked, CanBeCancelled) {

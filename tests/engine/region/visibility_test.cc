@@ -10,7 +10,6 @@
 namespace patchlab {
 namespace {
 
-constexpr int sheet = sheet_side * sheet_side;
 constexpr double thin = 0.002;  // m
 
 // From z = 1 straight down: the sheets at z = 0 are 200 px wide.
@@ -31,8 +30,8 @@ TEST(VisiblePoints, OfTwoSheetsAreThoseOfTheNearerOne) {
   add_sheet(scan, 0.0);
   add_sheet(scan, -0.1);
   const std::vector<std::uint8_t> seen = visible_points(scan, above(), thin);
-  EXPECT_EQ(seen_among(seen, 0, sheet), sheet);
-  EXPECT_EQ(seen_among(seen, sheet, sheet), 0);
+  EXPECT_EQ(seen_among(seen, 0, sheet_points), sheet_points);
+  EXPECT_EQ(seen_among(seen, sheet_points, sheet_points), 0);
 }
 
 TEST(VisiblePoints, DoNotDependOnWhichSheetComesFirst) {
@@ -40,8 +39,8 @@ TEST(VisiblePoints, DoNotDependOnWhichSheetComesFirst) {
   add_sheet(scan, -0.1);
   add_sheet(scan, 0.0);
   const std::vector<std::uint8_t> seen = visible_points(scan, above(), thin);
-  EXPECT_EQ(seen_among(seen, 0, sheet), 0);
-  EXPECT_EQ(seen_among(seen, sheet, sheet), sheet);
+  EXPECT_EQ(seen_among(seen, 0, sheet_points), 0);
+  EXPECT_EQ(seen_among(seen, sheet_points, sheet_points), sheet_points);
 }
 
 TEST(VisiblePoints, OfASheetSeenFromTheOtherSideAreTheOthers) {
@@ -52,15 +51,15 @@ TEST(VisiblePoints, OfASheetSeenFromTheOtherSideAreTheOthers) {
   below.position = {0, 0, -1.1};
   below.quaternion_xyzw = {1, 0, 0, 0};
   const std::vector<std::uint8_t> seen = visible_points(scan, below, thin);
-  EXPECT_EQ(seen_among(seen, 0, sheet), 0);
-  EXPECT_EQ(seen_among(seen, sheet, sheet), sheet);
+  EXPECT_EQ(seen_among(seen, 0, sheet_points), 0);
+  EXPECT_EQ(seen_among(seen, sheet_points, sheet_points), sheet_points);
 }
 
 TEST(VisiblePoints, OfASlantedSheetAreAllOfIt) {
   Scan scan;
   add_sheet(scan, 0.0, 1.1);
   const std::vector<std::uint8_t> seen = visible_points(scan, above(), thin);
-  EXPECT_EQ(seen_among(seen, 0, sheet), sheet);
+  EXPECT_EQ(seen_among(seen, 0, sheet_points), sheet_points);
 }
 
 TEST(VisiblePoints, OfANoisySheetAreAllOfItWhereTheNoiseIsKnown) {
@@ -97,8 +96,8 @@ TEST(VisiblePoints, AreTheSameInAParallelViewFromFarAway) {
   camera.height = 0.5;
   camera.position.z() = 50;
   const std::vector<std::uint8_t> seen = visible_points(scan, camera, thin);
-  EXPECT_EQ(seen_among(seen, 0, sheet), sheet);
-  EXPECT_EQ(seen_among(seen, sheet, sheet), 0);
+  EXPECT_EQ(seen_among(seen, 0, sheet_points), sheet_points);
+  EXPECT_EQ(seen_among(seen, sheet_points, sheet_points), 0);
 }
 
 TEST(VisiblePoints, OfNothingAreNone) { EXPECT_TRUE(visible_points({}, above(), thin).empty()); }
