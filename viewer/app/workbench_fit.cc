@@ -24,11 +24,15 @@ Select Workbench::select_command(const Stroke& stroke) const {
   const bool replaces_kept = stroke.mode == SelectMode::set && focused && patch_of(document, focused->id);
   select.region = focused && !replaces_kept ? focused->id : free_id(document, "region");
   select.scan = focused && !replaces_kept ? focused->scan
+                : !stroke.scan.empty()    ? stroke.scan
                 : document.scans.empty()  ? std::string()
                                           : document.scans.back().id;
   select.mode = stroke.mode;
+  select.flood = stroke.surface_at;
+  if (select.flood) return select;
   select.polygon = stroke.polygon;
   select.camera = stroke.camera;
+  select.visible_only = stroke.visible_only;
   return select;
 }
 
@@ -39,22 +43,29 @@ Fit Workbench::fit_command(const std::string& region) const {
   fit.patch = kept ? kept->id : free_id(session_.document(), "patch");
   fit.options.surface = choice_.surface;
   fit.options.robust = choice_.robust;
+  fit.options.boundary = choice_.boundary;
   return fit;
 }
 
+ApplyOptions Workbench::applying(const Progress& progress) const {
+  ApplyOptions options = with_progress(progress);
+  options.visibility = visibility_;
+  return options;
+}
+
 Workbench::Outcome Workbench::attempt(Document document, const std::optional<Select>& select, Fit fit,
-                                      const Progress& progress) {
+                                      const Progress& progress) const {
   Outcome outcome;
   outcome.document = std::move(document);
   if (select) {
     Command command = *select;
-    Result<Document> selected = apply(outcome.document, command, with_progress(progress));
+    Result<Document> selected = apply(outcome.document, command, applying(progress));
     if (!selected) return {std::move(outcome.document), std::nullopt, selected.error()};
     outcome.document = std::move(*selected);
   }
   const auto start = std::chrono::steady_clock::now();
   Command command = std::move(fit);
-  Result<Document> fitted = apply(outcome.document, command, with_progress(progress));
+  Result<Document> fitted = apply(outcome.document, command, applying(progress));
   outcome.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (!fitted) {
@@ -96,24 +107,42 @@ void Workbench::select(const Stroke& stroke) {
                              : "Nothing is selected yet that could be taken away from.");
       return;
     }
-    worker_.drop_previews();
-    currency_ = Currency::fitting;
-    order({},
-          [this, command = Command(select_command(stroke)),
-           before = session_.document()](const Progress& progress) mutable -> Worker::Finish {
-            auto after = std::make_shared<Result<Document>>(apply(before, command, with_progress(progress)));
-            return [this, command, after] {
-              if (!*after) return report(after->error());
-              const bool keep_wanted = keep_when_ready_;
-              std::optional<Draft> shown = draft_;
-              if (!record(command, std::move(**after))) return;
-              draft_ = std::move(shown);  // until the fit of the recorded selection is there
-              region_ = std::get<Select>(command).region;
-              refit();
-              keep_when_ready_ = keep_wanted;
-            };
-          });
+    change_region({}, select_command(stroke));
   });
+}
+
+void Workbench::reshape(Reshaping how) {
+  enqueue([this, how] {
+    if (region_.empty()) {
+      notices_.push_back("No region is chosen that could be changed.");
+      return;
+    }
+    change_region("changing the region", Reshape{region_, how});
+  });
+}
+
+// Records what the command makes of a region, and fits it; what is shown stays until that fit is there.
+void Workbench::change_region(const std::string& name, Command wanted) {
+  worker_.drop_previews();
+  currency_ = Currency::fitting;
+  order(name,
+        [this, command = std::move(wanted),
+         before = session_.document()](const Progress& progress) mutable -> Worker::Finish {
+          auto after = std::make_shared<Result<Document>>(apply(before, command, applying(progress)));
+          return [this, command, after] {
+            if (!*after) {
+              currency_ = draft_ ? Currency::current : Currency::nothing;
+              return report(after->error());
+            }
+            const bool keep_wanted = keep_when_ready_;
+            std::optional<Draft> shown = draft_;
+            if (!record(command, std::move(**after))) return;
+            draft_ = std::move(shown);
+            if (const Select* select = std::get_if<Select>(&command)) region_ = select->region;
+            refit();
+            keep_when_ready_ = keep_wanted;
+          };
+        });
 }
 
 void Workbench::focus(const std::string& id) {

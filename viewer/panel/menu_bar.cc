@@ -19,7 +19,9 @@ void draw_item(const PanelInput& in, const ActionRow& item, Requests& out) {
 // Items that belong together are adjacent in the table; a line parts the groups of the longer menus.
 bool starts_group(Action action) {
   return action == Action::quit || action == Action::remove || action == Action::mode_set ||
-         action == Action::last_vertex || action == Action::robust || action == Action::keep ||
+         action == Action::last_vertex || action == Action::invert || action == Action::hide ||
+         action == Action::fit_elliptic || action == Action::bound_automatic ||
+         action == Action::visible_only || action == Action::robust || action == Action::keep ||
          action == Action::perspective || action == Action::colour_shading ||
          action == Action::larger_points || action == Action::show_surface || action == Action::theme;
 }

@@ -181,7 +181,7 @@ void draw_badge(const PanelInput& in, ImDrawList& draw) {
       break;
   }
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (in.state.tool != Tool::lasso || !in.layout.view.contains(mouse.x, mouse.y)) return;
+  if (in.state.tool == Tool::orbit || !in.layout.view.contains(mouse.x, mouse.y)) return;
   draw_text(draw, in.gui.fonts.title, {mouse.x + in.gui.px(12), mouse.y + in.gui.px(6)}, in.gui.theme.text,
             badge);
 }

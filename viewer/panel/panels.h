@@ -48,6 +48,7 @@ void draw_candidates(const Gui& gui, const FitReport& report, SurfaceType shown,
 // Words.
 // What a fit is blamed for and what it is warned of, each once: reasons first. Remarks about the frame that
 // the parameters are given in stand beside the correlations.
+std::string choice_words(const std::vector<Candidate>& candidates);  // why the chosen surface was chosen
 std::vector<std::string> sentences_of(const FitReport& report);
 std::string surface_words(SurfaceType surface);        // "elliptic paraboloid"
 std::string short_surface_words(SurfaceType surface);  // "ell. paraboloid"

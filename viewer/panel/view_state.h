@@ -16,14 +16,14 @@
 
 namespace patchlab::viewer {
 
-enum class Tool { orbit, lasso };
+enum class Tool { orbit, lasso, rectangle, surface };
 enum class PointColours { shading, photo, residual };
 
 // Whether the patch on the screen is the fit of what is selected now.
 enum class Currency { nothing, fitting, current, failed };
 
 struct Layers {
-  bool surface = true, ellipsoid = true, cone = true, band = true, axes = true;
+  bool surface = true, ellipsoid = true, cone = true, band = true, axes = true, offsets = false;
   bool operator==(const Layers&) const = default;
 };
 
@@ -56,7 +56,9 @@ struct ViewState {
   ThemeChoice theme = ThemeChoice::dark;
   Tool tool = Tool::orbit;
   SelectMode mode = SelectMode::set;
+  bool visible_only = true;  // a contour leaves out what other points hide
   SurfaceRequest surface = SurfaceRequest::automatic;
+  BoundaryRequest boundary = BoundaryRequest::automatic;
   bool robust = true;
   bool perspective = true;
   PointColours colours = PointColours::shading;

@@ -152,6 +152,33 @@ TEST_P(ProgramTest, NavigationDuringALassoKeepsTheContour) {
   EXPECT_EQ(program_.app().workbench().session().document().regions.size(), 1u);
 }
 
+TEST_P(ProgramTest, ARectangleSelectsAndTheBasisIsStated) {
+  program_.play("click tools/Rect\ndrag " + program_.at(-0.045, -0.045) + program_.at(0.02, 0.01) +
+                program_.at(0.045, 0.045) + "\nwait\n");
+  const auto command_line = [this] {
+    return as_text(*read_file(program_.app().workbench().session().journal()))
+        .ends_with("\"visible_only\":true}\n");
+  };
+  ASSERT_EQ(program_.document().regions.size(), 1u);
+  EXPECT_TRUE(command_line());
+  program_.play("key X\ndrag " + program_.at(-0.04, -0.04) + program_.at(0.02, 0.01) +
+                program_.at(0.04, 0.04) + "\nwait\n");
+  EXPECT_FALSE(program_.app().state().visible_only);
+  EXPECT_FALSE(command_line());
+}
+
+TEST_P(ProgramTest, OneClickOnASurfaceMakesAPatch) {
+  program_.play("key G\nkey 3\nclick " + program_.at(0.01, 0.01) + "\nwait\nkey Enter\nwait\n");
+  ASSERT_EQ(program_.document().patches.size(), 1u);
+  EXPECT_NEAR(1 / std::abs(curvatures(program_.document().patches[0].fit->patch)[0]), ball_radius, 0.005);
+  program_.play("key =\nwait\nkey -\nwait\nkey H\nwait\n");
+  EXPECT_FALSE(program_.document().patches.at(0).visible && program_.document().regions.at(0).visible);
+  program_.play("key Shift+H\nwait\nkey S\nwait\n");
+  EXPECT_TRUE(program_.document().patches.at(0).visible && program_.document().regions.at(0).visible);
+  EXPECT_TRUE(program_.app().errors().empty());
+  program_.picture("program_surface_" + std::to_string(static_cast<int>(GetParam().scale)));
+}
+
 TEST_P(ProgramTest, UndoAndRedoByKey) {
   program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nkey Enter\nwait\n");
   program_.play("key Ctrl+Z\nkey Ctrl+Z\nwait\n");

@@ -123,6 +123,69 @@ TEST_F(WorkbenchTest, AddAndSubtractChangeTheRegionInFocus) {
   EXPECT_EQ(kept().regions.size(), 1u);
 }
 
+TEST_F(WorkbenchTest, AContourOnVisiblePointsLeavesTheHiddenOnesOutAndSaysHowMany) {
+  Stroke behind = square(10);
+  // From behind the wall, the ball is hidden.
+  OrbitCamera camera = from_sensor({}, 0.8, 2 * std::atan(120 / 262.5));
+  camera.orbit(3.14159265, 0.0);
+  behind.camera = view_camera(camera, 320, 240);
+  bench_.select(behind);
+  finish();
+  const std::size_t through = kept().regions.at(0).points->size();
+  behind.visible_only = true;
+  bench_.select(behind);
+  finish();
+  const RegionEntry& region = kept().regions.at(0);
+  EXPECT_LT(region.points->size(), through);
+  EXPECT_EQ(region.points->size() + region.hidden_left_out, through);
+  EXPECT_EQ(replay(bench_.session().journal())->regions.at(0).hidden_left_out, region.hidden_left_out);
+}
+
+TEST_F(WorkbenchTest, AClickTakesTheSurfaceAndItsPatchIsFitted) {
+  Stroke click;
+  click.surface_at = ball_centre - Eigen::Vector3d(0, 0, ball_radius);
+  click.scan = "scan-1";
+  bench_.select(click);
+  finish();
+  ASSERT_EQ(kept().regions.size(), 1u);
+  EXPECT_GT(kept().regions[0].points->size(), 300u);
+  EXPECT_EQ(bench_.draft_patch(), "patch-1");
+  const Scan& scan = *kept().scans[0].scan;
+  std::size_t off = 0;
+  for (const std::uint32_t id : *kept().regions[0].points)
+    off += (scan.point(id) - ball_centre).norm() > 0.09;
+  EXPECT_EQ(off, 0u) << "points of the wall";
+}
+
+TEST_F(WorkbenchTest, ARegionIsReshapedAsAStepThatCanBeUndone) {
+  bench_.select(square(13));
+  finish();
+  const auto points = [this] { return kept().regions.at(0).points->size(); };
+  const std::size_t before = points();
+  bench_.reshape(Reshaping::grow);
+  finish();
+  const std::size_t grown = points();
+  EXPECT_GT(grown, before);
+  EXPECT_EQ(bench_.draft_patch(), "patch-1") << "the fit follows";
+  bench_.reshape(Reshaping::shrink);
+  finish();
+  EXPECT_LT(points(), grown);
+  for (int i = 0; i < 2; ++i) bench_.undo();
+  finish();
+  EXPECT_EQ(points(), before);
+  const Result<Document> replayed = replay(bench_.session().journal());
+  ASSERT_TRUE(replayed) << replayed.error().message;
+  EXPECT_EQ(replayed->regions.at(0).points->size(), before);
+}
+
+TEST_F(WorkbenchTest, ReshapingNothingIsTold) {
+  bench_.take_notices();
+  bench_.reshape(Reshaping::grow);
+  finish();
+  EXPECT_EQ(bench_.take_notices().size(), 1u);
+  EXPECT_EQ(bench_.session().history().size(), 1u);
+}
+
 TEST_F(WorkbenchTest, TakingAwayFromNothingIsToldAndChangesNothing) {
   (void)bench_.take_notices();
   bench_.select(square(13, SelectMode::subtract));
