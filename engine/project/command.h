@@ -87,7 +87,8 @@ struct ApplyOptions {
   std::filesystem::path folder;             // relative scan files are looked for here
   std::optional<std::filesystem::path> on;  // replay on another scan file (--on): its bytes may differ
   Progress progress;
-  std::shared_ptr<VisibilityCache> visibility = {};  // optional: keeps what a still camera sees between lassos
+  std::shared_ptr<VisibilityCache> visibility =
+      {};  // optional: keeps what a still camera sees between lassos
 };
 
 // The document after a command other than Undo and Redo; fills in what the command left open (hashes).

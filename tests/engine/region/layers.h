@@ -8,7 +8,7 @@
 
 namespace patchlab {
 
-inline constexpr int sheet_side = 41;        // points
+inline constexpr int sheet_side = 41;  // points
 inline constexpr int sheet_points = sheet_side * sheet_side;
 inline constexpr double sheet_step = 0.005;  // m
 
