@@ -98,14 +98,19 @@ void App::double_click() {
   if (const std::optional<Pointed> pointed = point_under_pointer()) stage_.set_pivot(pointed->point);
 }
 
+// Of all scans that are shown, the nearest.
 std::optional<App::Pointed> App::point_under_pointer() const {
+  std::optional<Pointed> nearest;
+  const auto depth = [camera = view()](const Pointed& at) { return project(camera, at.point).depth; };
   for (const ScanEntry& entry : workbench_.document().scans) {
     if (!entry.visible || !entry.scan) continue;
     const std::optional<std::uint32_t> point =
         pick_point(*entry.scan, view(), pointer(), pick_window * platform_.scale());
-    if (point) return Pointed{entry.id, entry.scan->point(*point)};
+    if (!point) continue;
+    const Pointed at{entry.id, entry.scan->point(*point)};
+    if (!nearest || depth(at) < depth(*nearest)) nearest = at;
   }
-  return std::nullopt;
+  return nearest;
 }
 
 void App::select_surface() {

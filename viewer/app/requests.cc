@@ -31,6 +31,7 @@ void App::answer(const Requests& requests) {
   for (const Command& command : requests.commands) workbench_.run(command);
   if (requests.select) select(*requests.select);
   if (requests.surface) choose_surface(*requests.surface);
+  if (requests.noise) workbench_.set_noise(requests.noise->scan, requests.noise->noise);
   if (requests.history_position) workbench_.go_to(*requests.history_position);
   if (requests.open) open(*requests.open);
   if (requests.save_journal) workbench_.save_journal(*requests.save_journal);
@@ -164,6 +165,9 @@ void App::act_on_document(Action action) {
       break;
     case Action::rename:
       rename_selected();
+      break;
+    case Action::noise:
+      memory_.choose_noise = true;
       break;
     case Action::help:
       memory_.help = true;

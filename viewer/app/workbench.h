@@ -64,6 +64,8 @@ class Workbench {
   void select(const Stroke& stroke);
   void drop_preview();
   void reshape(Reshaping how);  // the region in focus
+  // An empty specification: what suits the scan where nobody says. Refits all patches of the scan.
+  void set_noise(const std::string& scan, const std::string& specification);
 
   // Which region a lasso changes and a fit is made of: the region of `id`, or of the patch `id`.
   void focus(const std::string& id);
@@ -116,8 +118,10 @@ class Workbench {
   Outcome attempt(Document document, const std::optional<Select>& select, Fit fit,
                   const Progress& progress) const;
   ApplyOptions applying(const Progress& progress) const;  // for the worker's thread too
-  void change_region(const std::string& name, Command command);
-  bool can_select(const Stroke& stroke) const;
+  void change(const std::string& name, Command command);
+  void follow(const Command& command, std::optional<Draft> shown);  // refits what a change was about
+  // Why nothing can be selected so, as a sentence; nothing where it can.
+  std::optional<std::string> refusal(const Stroke& stroke) const;
   Select select_command(const Stroke& stroke) const;
   Fit fit_command(const std::string& region) const;
 

@@ -72,6 +72,7 @@ constexpr ActionRow kActions[] = {
      "of planes; other surfaces have one outline"},
     {Action::robust, Menu::fit, "Reject outliers",
      "points that do not belong to the surface are flagged and left out", 'R'},
+    {Action::noise, Menu::fit, "Noise model...", "of the scan: what if it were another?", 'N'},
     {Action::keep, Menu::fit, "Keep patch", "closes an open contour, then keeps the fitted patch", key::enter,
      false, false, key::pad_enter},
 

@@ -48,6 +48,7 @@ enum class Action {
   bound_rectangle,
   bound_quad,
   robust,
+  noise,
   keep,
   home,
   frame_selection,

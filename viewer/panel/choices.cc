@@ -130,6 +130,7 @@ bool is_possible(Action action, const Document& document, const ViewState& state
     case Action::last_vertex:
       return state.drawing;
     case Action::home:
+    case Action::noise:
     case Action::sensor_view:
       return !document.scans.empty();
     case Action::colour_photo:

@@ -96,6 +96,7 @@ struct Requests {
   std::vector<Command> commands;  // rename, delete, show
   std::optional<std::string> select;
   std::optional<SurfaceRequest> surface;
+  std::optional<SetNoise> noise;
   std::optional<std::size_t> history_position;
   std::optional<std::filesystem::path> open;
   std::optional<std::filesystem::path> save_journal;

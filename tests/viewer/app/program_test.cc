@@ -179,6 +179,23 @@ TEST_P(ProgramTest, OneClickOnASurfaceMakesAPatch) {
   program_.picture("program_surface_" + std::to_string(static_cast<int>(GetParam().scale)));
 }
 
+TEST_P(ProgramTest, AnotherNoiseModelIsChosenFromTheListWhileTheFitFollows) {
+  program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nwait\nkey Enter\nwait\n");
+  const auto noise = [this] { return program_.document().scans.at(0).noise.specification; };
+  program_.play("key N\nclick noise/isotropic, 5 mm\nwait\n");
+  EXPECT_EQ(noise(), "isotropic:0.005");
+  EXPECT_TRUE(program_.app().widgets().contains("noise/kinect2")) << "the list stays";
+  program_.picture("program_noise_" + std::to_string(static_cast<int>(GetParam().scale)));
+  program_.play(
+      "click noise/specification\ntype stereo:f=525,baseline=0.075,pointing=0.35,disparity=0.5\n"
+      "key Enter\nwait\nkey Esc\n");
+  EXPECT_TRUE(noise().ends_with("disparity=0.5")) << noise();
+  EXPECT_FALSE(program_.app().widgets().contains("noise/kinect2"));
+  program_.play("key Ctrl+Z\nkey Ctrl+Z\nwait\n");
+  EXPECT_EQ(noise(), "kinect1");
+  EXPECT_TRUE(program_.app().errors().empty());
+}
+
 TEST_P(ProgramTest, UndoAndRedoByKey) {
   program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nkey Enter\nwait\n");
   program_.play("key Ctrl+Z\nkey Ctrl+Z\nwait\n");
