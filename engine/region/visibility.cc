@@ -10,11 +10,11 @@ namespace patchlab {
 namespace {
 
 constexpr float nothing = std::numeric_limits<float>::infinity();
-constexpr int coarsest = 32;        // px, side of a cell
-constexpr double most_gaps = 0.03;  // share of cells amid points that may be empty
-constexpr int amid = 5;             // of the eight cells around, so many hold points
-constexpr double steepest = 3.0;    // slope of a surface against the view that still is one
-constexpr double reach = 1.5;       // cells, from a point to those that may hide it
+constexpr int coarsest = 32;          // px, side of a cell
+constexpr double most_gaps = 0.03;    // share of cells amid points that may be empty
+constexpr int amid = 5;               // of the eight cells around, so many hold points
+constexpr double steepest = 3.0;      // slope of a surface against the view that still is one
+constexpr double hiding_reach = 1.5;  // cells, from a point to those that may hide it
 
 // Least depths, row by row.
 struct DepthGrid {
@@ -107,7 +107,7 @@ std::vector<std::uint8_t> visible_points(const Scan& scan, const ViewCamera& cam
     const Projected& p = pixels[i];
     const float nearest =
         nearest_around(grid, static_cast<int>(p.x) / grid.cell, static_cast<int>(p.y) / grid.cell);
-    const double slant = steepest * reach * grid.cell * project_point.footprint(p.depth);
+    const double slant = steepest * hiding_reach * grid.cell * project_point.footprint(p.depth);
     seen[i] = p.depth - nearest <= slant + thickness;
   }
   return seen;

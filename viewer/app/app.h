@@ -55,6 +55,7 @@ class App {
   void show_new_document();
   void set_up_camera();
   void make_shades();
+  void find_earlier_work();
   void draw();
   void toast(const std::string& text, bool is_error);
   double aspect() const;

@@ -108,8 +108,7 @@ std::string add_offsets(const Patch& patch, const Vector3d& origin, const Rgba& 
     scene.meshes.push_back(
         {std::make_shared<const std::vector<MeshVertex>>(std::move(vertices)), triangles, true});
   }
-  return "95 % of the height, drawn " +
-         std::string(times == 1 ? "at true size" : std::to_string(times) + " times further off");
+  return "95 % of the height, " + exaggeration_words(times, "further off");
 }
 
 }  // namespace
@@ -166,14 +165,11 @@ PatchScene chosen_patch(const Patch& patch, const Vector3d& origin, const Layers
   scene.lines.push_back(outline_item(patch, origin, colour, 3.0f * scale));
   if (layers.axes) add_axes(patch, origin, theme, scale, scene);
   if (!patch.covariance_local) return scene;
-  std::vector<std::string> others;
   if (layers.ellipsoid) add_ellipsoid(patch, origin, theme, scale, scene);
-  if (layers.cone) others.push_back(add_cone(patch, origin, theme, scale, scene));
-  if (layers.offsets) others.push_back(add_offsets(patch, origin, with_alpha(theme.accent, 0.30f), scene));
-  if (layers.band) others.push_back(add_band(patch, origin, colour, scene));
-  std::string line;
-  for (const std::string& note : others) line += (line.empty() ? "" : "  ·  ") + note;
-  if (!line.empty()) scene.notes.push_back(line);
+  if (layers.cone) scene.notes.push_back(add_cone(patch, origin, theme, scale, scene));
+  if (layers.offsets)
+    scene.notes.push_back(add_offsets(patch, origin, with_alpha(theme.accent, 0.30f), scene));
+  if (layers.band) scene.notes.push_back(add_band(patch, origin, colour, scene));
   return scene;
 }
 

@@ -134,6 +134,7 @@ class Workbench {
   void open_journal(const std::filesystem::path& file);
   void open_scan(const std::filesystem::path& file);
   void record_scan(OpenScan command, Document after);
+  void tell_of_earlier_work(const std::filesystem::path& scan);
   Result<void> begin_journal(const std::filesystem::path& scan);
   bool record(const Command& command,
               Document after);  // false: it could not be written, and nothing has changed

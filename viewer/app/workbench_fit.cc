@@ -18,7 +18,8 @@ const PatchEntry* patch_of(const Document& document, const std::string& region) 
 // What a new region is drawn on: the scan that was pointed at, or the newest one that is shown.
 std::string scan_under(const Stroke& stroke, const Document& document) {
   if (!stroke.scan.empty()) return stroke.scan;
-  const auto shown = std::find_if(document.scans.rbegin(), document.scans.rend(), &ScanEntry::visible);
+  const auto shown = std::find_if(document.scans.rbegin(), document.scans.rend(),
+                                  [](const ScanEntry& entry) { return entry.visible; });
   return shown == document.scans.rend() ? std::string() : shown->id;
 }
 

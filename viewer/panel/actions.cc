@@ -82,6 +82,8 @@ constexpr ActionRow kActions[] = {
     {Action::perspective, Menu::view, "Perspective", "or parallel projection", '5'},
     {Action::colour_shading, Menu::view, "Points shaded", "grey, by how they face the sensor"},
     {Action::colour_photo, Menu::view, "Points in their own colours", "where the scan has them"},
+    {Action::colour_height, Menu::view, "Points by height", "along the axis that the view turns about"},
+    {Action::colour_label, Menu::view, "Points by label", "where the scan has labels"},
     {Action::colour_residual, Menu::view, "Residuals on points",
      "signed distance to the patch in standard deviations", 'C'},
     {Action::larger_points, Menu::view, "Larger points", "", ']'},

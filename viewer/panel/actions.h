@@ -56,6 +56,8 @@ enum class Action {
   perspective,
   colour_shading,
   colour_photo,
+  colour_height,
+  colour_label,
   colour_residual,
   larger_points,
   smaller_points,

@@ -42,6 +42,8 @@ constexpr Choice<Tool> kToolChoices[] = {{Action::orbit_tool, Tool::orbit},
                                          {Action::surface_tool, Tool::surface}};
 constexpr Choice<PointColours> kColours[] = {{Action::colour_shading, PointColours::shading},
                                              {Action::colour_photo, PointColours::photo},
+                                             {Action::colour_height, PointColours::height},
+                                             {Action::colour_label, PointColours::label},
                                              {Action::colour_residual, PointColours::residual}};
 constexpr Choice<bool Layers::*> kLayers[] = {
     {Action::show_surface, &Layers::surface}, {Action::show_ellipsoid, &Layers::ellipsoid},
@@ -55,9 +57,11 @@ std::optional<Value> find(const Choice<Value> (&choices)[n], Action action) {
   return std::nullopt;
 }
 
-bool has_colours(const Document& document) {
-  return std::any_of(document.scans.begin(), document.scans.end(),
-                     [](const ScanEntry& entry) { return entry.scan && !entry.scan->colours.empty(); });
+template <class Values>
+bool any_scan_has(const Document& document, std::vector<Values> Scan::*values) {
+  return std::any_of(document.scans.begin(), document.scans.end(), [values](const ScanEntry& entry) {
+    return entry.scan && !((*entry.scan).*values).empty();
+  });
 }
 
 template <class Entry>
@@ -134,7 +138,9 @@ bool is_possible(Action action, const Document& document, const ViewState& state
     case Action::sensor_view:
       return !document.scans.empty();
     case Action::colour_photo:
-      return has_colours(document);
+      return any_scan_has(document, &Scan::colours);
+    case Action::colour_label:
+      return any_scan_has(document, &Scan::labels);
     case Action::colour_residual:
       return !document.patches.empty();
     default:

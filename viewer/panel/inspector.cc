@@ -97,6 +97,24 @@ void draw_scan(const PanelInput& in, const ScanEntry& entry, PanelMemory& memory
   for (const std::string& notice : scan.notices) paragraph(gui, gui.theme.text, notice);
 }
 
+void draw_earlier_work(const PanelInput& in, const EarlierWork& work, Requests& out) {
+  const Gui& gui = in.gui;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = gui.px(26);
+  if (ImGui::InvisibleButton(work.journal.c_str(), {width, height})) out.open = work.journal;
+  gui.note("earlier/" + work.scan);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (ImGui::IsItemHovered()) {
+    draw.AddRectFilled({at.x - gui.px(6), at.y}, {at.x + width + gui.px(6), at.y + height},
+                       u32(gui.theme.hover), gui.px(5));
+  }
+  tooltip(gui, work.journal.string());
+  const float y = at.y + (height - gui.fonts.body->FontSize) / 2;
+  const float room = width - text_size(gui.fonts.small, work.remark).x - gui.px(12);
+  draw_text(draw, gui.fonts.body, {at.x, y}, gui.theme.text, fit_text(gui.fonts.body, work.scan, room));
+  draw_text_right(draw, gui.fonts.small, {at.x + width, y + gui.px(1)}, gui.theme.text_dim, work.remark);
+}
+
 void draw_welcome(const PanelInput& in, Requests& out) {
   const Gui& gui = in.gui;
   draw_title(gui, "patchlab", "");
@@ -108,6 +126,8 @@ void draw_welcome(const PanelInput& in, Requests& out) {
   if (button(gui, "inspector/open", "Open a scan", {.key = "Ctrl+O", .strong = true})) {
     out.actions.push_back(Action::open_file);
   }
+  if (!in.state.earlier.empty()) section(gui, "GO ON WITH", "nothing of it was lost");
+  for (const EarlierWork& work : in.state.earlier) draw_earlier_work(in, work, out);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct NoiseRow {
 
 std::vector<NoiseRow> noise_rows(const ScanEntry& scan) {
   const NoiseModel& now = scan.noise;
-  std::vector<NoiseRow> rows = {{"as assumed for this scan", "", "where nobody names a model", now.assumed}};
+  std::vector<NoiseRow> rows = {{"as assumed for this scan", "", "where none is named", now.assumed}};
   const auto add = [&](std::string_view name, std::string_view specification, std::string_view help) {
     const bool chosen = !now.assumed && now.specification == specification;
     rows.push_back({std::string(name), std::string(specification), std::string(help), chosen});
@@ -38,6 +38,7 @@ void draw_noise_row(const Gui& gui, const NoiseRow& row, const std::string& scan
   if (ImGui::InvisibleButton(row.name.c_str(), {width, height}))
     out.noise = SetNoise{scan, row.specification};
   gui.note("noise/" + row.name);
+  tooltip(gui, row.help);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (row.chosen || ImGui::IsItemHovered()) {
     draw.AddRectFilled(at, {at.x + width, at.y + height},
@@ -87,6 +88,7 @@ void draw_noise(const Gui& gui, const ScanEntry& scan, PanelMemory& memory, Requ
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gui.px(12), gui.px(10)});
   if (ImGui::BeginPopup("noise models")) {
     draw_noise_list(gui, scan, memory, out);
+    close_on_escape();
     ImGui::EndPopup();
   }
   ImGui::PopStyleVar();

@@ -53,8 +53,8 @@ void draw_candidates(const Gui& gui, const FitReport& report, SurfaceType shown,
 // the parameters are given in stand beside the correlations.
 std::vector<std::string> sentences_of(const FitReport& report);
 std::string choice_words(const std::vector<Candidate>& candidates);  // why the chosen surface was chosen
-std::string surface_words(SurfaceType surface);        // "elliptic paraboloid"
-std::string short_surface_words(SurfaceType surface);  // "ell. paraboloid"
+std::string surface_words(SurfaceType surface);                      // "elliptic paraboloid"
+std::string short_surface_words(SurfaceType surface);                // "ell. paraboloid"
 std::string boundary_words(BoundaryType boundary);
 std::string noise_words(const NoiseModel& model);  // "kinect1 (assumed)"
 

@@ -17,7 +17,7 @@
 namespace patchlab::viewer {
 
 enum class Tool { orbit, lasso, rectangle, surface };
-enum class PointColours { shading, photo, residual };
+enum class PointColours { shading, photo, height, label, residual };
 
 // Whether the patch on the screen is the fit of what is selected now.
 enum class Currency { nothing, fitting, current, failed };
@@ -38,7 +38,8 @@ struct SceneNotes {
   std::vector<Label> labels;                    // of axes
   std::optional<Eigen::Vector2d> height_sigma;  // least and largest on the surface, m: the colour bar
   bool residual_colours = false;
-  double metres_per_pixel = 0.0;  // at the pivot
+  std::optional<Eigen::Vector2d> point_heights;  // where the colours of the points end, m
+  double metres_per_pixel = 0.0;                 // at the pivot
 };
 
 struct Toast {
@@ -50,6 +51,13 @@ struct Toast {
 struct Busy {
   std::string what;
   double fraction = 0.0;
+};
+
+// Work of an earlier time that can be gone on with.
+struct EarlierWork {
+  std::filesystem::path journal;
+  std::string scan;    // "bench"
+  std::string remark;  // "12 steps, 2 Jan 14:02"
 };
 
 struct ViewState {
@@ -79,8 +87,9 @@ struct ViewState {
   std::vector<std::string> history;
   std::size_t position = 0;  // how much of the history stands
   bool can_undo = false, can_redo = false;
-  std::string saved;    // "saved 14:02:11"
-  std::string journal;  // its path, with ~ for the home folder
+  std::string saved;                 // "saved 14:02:11"
+  std::string journal;               // its path, with ~ for the home folder
+  std::vector<EarlierWork> earlier;  // newest first
   std::optional<Busy> busy;
   std::vector<Toast> toasts;
   SceneNotes notes;

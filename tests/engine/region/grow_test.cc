@@ -10,7 +10,7 @@
 namespace patchlab {
 namespace {
 
-constexpr std::uint32_t middle = sheet_points / 2;
+constexpr std::uint32_t sheet_middle = sheet_points / 2;
 
 Scan two_sheets() {
   Scan scan;
@@ -35,20 +35,20 @@ TEST(Invert, GivesTheOtherFinitePoints) {
 
 TEST(Grow, AddsTheRingAround) {
   const Scan scan = two_sheets();
-  const PointIds ring = grow(scan, {middle}, 1);
-  EXPECT_THAT(
-      ring, testing::ElementsAre(middle - sheet_side - 1, middle - sheet_side, middle - sheet_side + 1,
-                                 middle - 1, middle, middle + 1, middle + sheet_side - 1, middle + sheet_side,
-                                 middle + sheet_side + 1));
-  EXPECT_EQ(grow(scan, {middle}, 3).size(), 49u);
-  EXPECT_EQ(grow(scan, ring, 1), grow(scan, {middle}, 2));
+  const PointIds ring = grow(scan, {sheet_middle}, 1);
+  EXPECT_THAT(ring, testing::ElementsAre(sheet_middle - sheet_side - 1, sheet_middle - sheet_side,
+                                         sheet_middle - sheet_side + 1, sheet_middle - 1, sheet_middle,
+                                         sheet_middle + 1, sheet_middle + sheet_side - 1,
+                                         sheet_middle + sheet_side, sheet_middle + sheet_side + 1));
+  EXPECT_EQ(grow(scan, {sheet_middle}, 3).size(), 49u);
+  EXPECT_EQ(grow(scan, ring, 1), grow(scan, {sheet_middle}, 2));
 }
 
 TEST(Shrink, TakesTheRingOff) {
   const Scan scan = two_sheets();
-  EXPECT_EQ(shrink(scan, grow(scan, {middle}, 3), 1), grow(scan, {middle}, 2));
-  EXPECT_EQ(shrink(scan, grow(scan, {middle}, 3), 3), PointIds{middle});
-  EXPECT_TRUE(shrink(scan, {middle}, 1).empty());
+  EXPECT_EQ(shrink(scan, grow(scan, {sheet_middle}, 3), 1), grow(scan, {sheet_middle}, 2));
+  EXPECT_EQ(shrink(scan, grow(scan, {sheet_middle}, 3), 3), PointIds{sheet_middle});
+  EXPECT_TRUE(shrink(scan, {sheet_middle}, 1).empty());
 }
 
 TEST(Flood, TakesTheSheetThatTheSeedIsOn) {
