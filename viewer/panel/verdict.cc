@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "viewer/panel/colours.h"
 #include "viewer/panel/numbers.h"
@@ -9,8 +8,6 @@ namespace patchlab::viewer {
 
 namespace {
 
-constexpr double least_overstated = 2.0;
-
 struct Tone {
   Rgba ground, frame, text;
 };
@@ -19,16 +16,8 @@ struct Tone {
 // correlations.
 bool is_about_frame(const Finding& finding) { return finding.name == "near_singular"; }
 
-// How many times smaller the residuals are than the noise model says; 1 where they are not.
-double times_smaller(const FitReport& report) {
-  return report.dof > 0 && report.chi2 > 0 ? std::max(1.0, std::sqrt(report.dof / report.chi2)) : 1.0;
-}
-
-bool overstates_noise(const FitReport& report) { return times_smaller(report) >= least_overstated; }
-
 bool has_doubts(const FitReport& report) {
-  return overstates_noise(report) ||
-         std::any_of(report.warnings.begin(), report.warnings.end(),
+  return std::any_of(report.warnings.begin(), report.warnings.end(),
                      [](const Finding& warning) { return !is_about_frame(warning); });
 }
 
@@ -68,12 +57,6 @@ std::vector<std::string> sentences_of(const FitReport& report) {
     if (!known && !is_about_frame(warning)) said.push_back(warning);
   }
   std::vector<std::string> sentences;
-  if (overstates_noise(report)) {
-    sentences.push_back(
-        "The residuals are " + significant(times_smaller(report), 2) +
-        " times smaller than the noise model says: it overstates the noise, and the deviations "
-        "below with it.");
-  }
   for (const Finding& finding : said) sentences.push_back(finding.sentence);
   return sentences;
 }

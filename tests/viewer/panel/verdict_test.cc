@@ -16,17 +16,6 @@ TEST(SentencesOf, AreReasonsThenWarningsEachOnce) {
             (std::vector<std::string>{"The residuals are too large.", "Only 12 points."}));
 }
 
-TEST(SentencesOf, SayWhereTheNoiseModelOverstatesTheNoise) {
-  FitReport report;
-  report.dof = 400;
-  report.chi2 = 64;
-  ASSERT_EQ(sentences_of(report).size(), 1u);
-  EXPECT_TRUE(sentences_of(report)[0].starts_with("The residuals are 2.5 times smaller"))
-      << sentences_of(report)[0];
-  report.chi2 = 300;
-  EXPECT_TRUE(sentences_of(report).empty());
-}
-
 Candidate candidate(SurfaceType surface, double bic, bool chosen = false) {
   Candidate made;
   made.surface = surface;
