@@ -37,7 +37,7 @@ void paint_heights(const Scan& scan, const HeightRange& heights, std::vector<Rgb
   for (std::size_t i = 0; i < colours.size(); ++i) {
     if (!scan.finite[i]) continue;
     const double at = (heights.up.dot(scan.point(i)) - heights.low) * scale;
-    colours[i] = by_height[static_cast<std::size_t>(std::clamp(at, 0.0, shades_of_height - 1.0))];
+    colours[i] = by_height[static_cast<std::size_t>(std::clamp(at, 0.0, shades_of_height - 1.0) + 0.5)];
   }
 }
 
