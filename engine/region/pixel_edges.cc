@@ -6,8 +6,7 @@
 namespace patchlab {
 namespace {
 
-constexpr double jump = 0.02;      // of the depth
-constexpr std::int64_t reach = 2;  // pixels
+constexpr double jump = 0.02;  // of the depth
 
 class Grid {
  public:
@@ -16,8 +15,8 @@ class Grid {
   bool at_edge(std::uint32_t id) const {
     const double here = depth(id);
     const std::int64_t row = id / scan_.width, column = id % scan_.width;
-    for (std::int64_t r = row - reach; r <= row + reach; ++r) {
-      for (std::int64_t c = column - reach; c <= column + reach; ++c) {
+    for (std::int64_t r = row - 1; r <= row + 1; ++r) {
+      for (std::int64_t c = column - 1; c <= column + 1; ++c) {
         if (r < 0 || c < 0 || r >= scan_.height || c >= scan_.width) continue;
         const auto neighbour = static_cast<std::uint32_t>(r * scan_.width + c);
         if (!scan_.finite[neighbour] || std::abs(depth(neighbour) - here) > jump * std::abs(here))

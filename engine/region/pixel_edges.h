@@ -1,5 +1,5 @@
-// Pixels of an organised scan at the edge of what they see: a depth camera matches windows of some pixels,
-// so what it reports there lies beside either of two surfaces.
+// Pixels of an organised scan at the edge of what they see: a depth camera's ray there meets two surfaces,
+// and the point it reports lies beside either of them by up to a pixel.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace patchlab {
 
 struct PixelEdges {
   std::vector<std::uint8_t>
-      at_edge;         // one an id: 1 where a pixel within two of it is missing or jumps in depth
+      at_edge;         // one an id: 1 where a neighbour of the eight is missing or jumps in depth
   double pitch = 0.0;  // rad, between the rays of neighbouring pixels; 0 where none is known
 };
 

@@ -14,15 +14,15 @@ namespace {
 
 using testing::Each;
 
-// A wall 2 m away with a box 1 m away before columns 7 to 13, as a camera of 100 pixels focal length sees it.
+// A wall 2 m away with a box 1 m away before columns 4 to 7, as a camera of 100 pixels focal length sees it.
 Scan wall_and_box() {
   Scan scan;
-  scan.width = 20;
+  scan.width = 12;
   scan.height = 8;
   for (int row = 0; row < 8; ++row) {
-    for (int column = 0; column < 20; ++column) {
-      const float z = column >= 7 && column < 14 ? 1.0F : 2.0F;
-      scan.positions.emplace_back(z * static_cast<float>(column - 10) / 100.0F,
+    for (int column = 0; column < 12; ++column) {
+      const float z = column >= 4 && column < 8 ? 1.0F : 2.0F;
+      scan.positions.emplace_back(z * static_cast<float>(column - 6) / 100.0F,
                                   z * static_cast<float>(row - 4) / 100.0F, z);
     }
   }
@@ -37,13 +37,13 @@ std::vector<std::uint32_t> ids_of(const Scan& scan) {
   return ids;
 }
 
-TEST(PixelEdges, LieWithinTwoPixelsOfAJump) {
+TEST(PixelEdges, LieOnBothSidesOfAJump) {
   const Scan scan = wall_and_box();
   const PixelEdges edges = pixel_edges(scan, ids_of(scan));
   ASSERT_EQ(edges.at_edge.size(), scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    const std::size_t column = i % 20;
-    const bool beside = (column >= 5 && column <= 8) || (column >= 12 && column <= 15);
+    const std::size_t column = i % 12;
+    const bool beside = column == 3 || column == 4 || column == 7 || column == 8;
     EXPECT_EQ(edges.at_edge[i] == 1, beside) << "column " << column;
   }
   EXPECT_NEAR(edges.pitch, 0.01, 2e-4);
@@ -51,10 +51,10 @@ TEST(PixelEdges, LieWithinTwoPixelsOfAJump) {
 
 TEST(PixelEdges, LieAroundMissingPixels) {
   Scan scan = wall_and_box();
-  const std::uint32_t hole = 4 * 20 + 1;
+  const std::uint32_t hole = 4 * 12 + 1;
   scan.positions[hole].z() = std::numeric_limits<float>::quiet_NaN();
   scan.finite[hole] = 0;
-  const std::vector<std::uint32_t> ids = {2 * 20 + 0, 6 * 20 + 3, 4 * 20 + 4};
+  const std::vector<std::uint32_t> ids = {3 * 12 + 0, 5 * 12 + 2, 4 * 12 + 10};
   EXPECT_THAT(pixel_edges(scan, ids).at_edge, testing::ElementsAre(1, 1, 0));
 }
 
@@ -71,7 +71,7 @@ TEST(PixelEdges, AreDoubtedAcrossTheRayByTwoPixels) {
   const Result<Observations> observations = observe(scan, stereo, ids_of(scan));
   ASSERT_TRUE(observations.ok());
   const double pitch = pixel_edges(scan, ids_of(scan)).pitch;
-  const std::size_t inner = 4 * 20 + 10, edge = 4 * 20 + 7;
+  const std::size_t inner = 4 * 12 + 5, edge = 4 * 12 + 4;
   for (const std::size_t i : {inner, edge}) {
     const Eigen::Vector3d ray = observations->points[i].normalized(), across = ray.unitOrthogonal();
     const Eigen::Matrix3d more =
