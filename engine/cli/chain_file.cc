@@ -18,7 +18,6 @@ bool is_covariance(const Matrix6d& cov) {
 }
 
 ChainElement read_element(const JsonPlace& place) {
-  place.only({"r", "t", "phi", "covariance"});
   ChainElement element;
   element.pose.pose = {place["r"].numbers(3), place["t"].numbers(3)};
   if (const auto phi = place.find("phi")) {
@@ -55,10 +54,25 @@ Result<Chain> parse_chain(std::string_view text, const std::string& name) {
   root.only({"elements"});
   const JsonPlace elements = root["elements"];
   Chain chain;
-  for (const JsonPlace& place : elements.items()) chain.push_back(read_element(place));
+  for (const JsonPlace& place : elements.items()) {
+    place.only({"r", "t", "phi", "covariance"});
+    chain.push_back(read_element(place));
+  }
   if (chain.empty()) elements.fail("must hold a pose or more");
   if (error) return *error;
   return chain;
+}
+
+Result<Chain> parse_pose(std::string_view text, const std::string& name) {
+  const Result<nlohmann::json> json = parse_json(text, name);
+  if (!json) return json.error();
+  if (json->is_object() && json->contains("elements")) return parse_chain(text, name);
+  std::optional<Error> error;
+  const JsonPlace root(*json, name, error);
+  root.only({"r", "t", "covariance", "axis_pose"});
+  const ChainElement element = read_element(root);
+  if (error) return *error;
+  return Chain{element};
 }
 
 ordered_json to_json(const UncertainPose& pose) {

@@ -14,6 +14,9 @@ namespace patchlab {
 // unreadable error with the element and member that is wrong; a covariance must be symmetric positive
 // semi-definite.
 Result<Chain> parse_chain(std::string_view text, const std::string& name);
+// A pose as a chain: such a file, or what `map chain` prints (r, t, covariance; axis_pose follows and is not
+// read).
+Result<Chain> parse_pose(std::string_view text, const std::string& name);
 nlohmann::ordered_json to_json(const UncertainPose& pose);  // with its 5-DoF axis pose
 
 }  // namespace patchlab

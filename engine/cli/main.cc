@@ -20,6 +20,8 @@ constexpr Verb verbs[] = {
 };
 constexpr Verb map_verbs[] = {
     {"chain", "Compose a chain of uncertain poses", set_up_map_chain},
+    {"robot", "Put the patches of a robot where its joints put them", set_up_map_robot},
+    {"merge", "Find what two patch sets both see, and fuse it", set_up_map_merge},
 };
 
 struct Choice {
@@ -52,7 +54,8 @@ int run_command_line(int argc, char** argv) {
   app.set_version_flag("--version", program());
   std::vector<Choice> choices;
   add_verbs(app, verbs, choices);
-  CLI::App* const map = app.add_subcommand("map", "Work with uncertain poses");
+  CLI::App* const map =
+      app.add_subcommand("map", "Work with patch maps: poses, robots, several sights of one surface");
   add_verbs(*map, map_verbs, choices);
   try {
     app.parse(argc, argv);

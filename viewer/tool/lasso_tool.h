@@ -3,7 +3,6 @@
 //
 //   drag         freehand; the release closes the contour
 //   clicks       vertices; a double click, Enter or a click near the start closes it
-//   rectangle    a shape of its own: a drag from corner to corner, nothing else
 //   Backspace    takes the last vertex back;  Esc drops the contour
 //
 // The contour is anchored in the world: each vertex is kept as the point where the ray through its pixel
@@ -31,8 +30,6 @@ struct Modifiers {
   bool shift = false, ctrl = false, alt = false;
 };
 
-enum class ContourShape { freehand, rectangle };
-
 // Shift adds, Ctrl subtracts, both intersect; `otherwise` is what the tool bar says.
 SelectMode mode_of(const Modifiers& modifiers, SelectMode otherwise);
 
@@ -51,8 +48,7 @@ class LassoTool {
   static constexpr double sample_distance = 3.0;  // px between freehand vertices
   static constexpr double close_distance = 10.0;  // px around the start
 
-  Outcome press(const Eigen::Vector2d& pixel, SelectMode mode, const LassoView& view,
-                ContourShape shape = ContourShape::freehand);
+  Outcome press(const Eigen::Vector2d& pixel, SelectMode mode, const LassoView& view);
   Outcome move(const Eigen::Vector2d& pixel, const LassoView& view);
   Outcome release(const Eigen::Vector2d& pixel, const LassoView& view);
   Outcome double_click();  // in place of the second press
@@ -71,7 +67,6 @@ class LassoTool {
 
  private:
   Outcome close();
-  void span_rectangle(const Eigen::Vector2d& pixel, const LassoView& view);
   void append(const Eigen::Vector2d& pixel, const LassoView& view);
 
   std::vector<Eigen::Vector3d> vertices_;      // world
@@ -80,7 +75,6 @@ class LassoTool {
   bool freehand_ = false;                      // the press has become a drag
   bool started_by_drag_ = false;               // no vertex was clicked before
   SelectMode mode_ = SelectMode::set;
-  ContourShape shape_ = ContourShape::freehand;
 };
 
 }  // namespace patchlab::viewer

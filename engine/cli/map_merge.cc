@@ -1,0 +1,145 @@
+#include <cstdio>
+#include <memory>
+
+#include "engine/base/chi_square.h"
+#include "engine/base/file.h"
+#include "engine/cli/chain_file.h"
+#include "engine/cli/output.h"
+#include "engine/cli/verb.h"
+#include "engine/io/map_set.h"
+
+namespace patchlab {
+namespace {
+
+struct MergeRequest {
+  std::string a, b, pose;
+  double gate = 0.95;
+  std::string output = "-";
+  bool json = false;
+};
+
+std::string called(const std::string& file) { return file == "-" ? "standard input" : file; }
+
+Result<PatchSet> read_set(const std::string& file) {
+  const Result<Bytes> bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  return read_patch_set(as_text(*bytes), called(file));
+}
+
+// Where B stands in A: by the file, or both in one frame.
+Result<UncertainPose> a_from_b(const MergeRequest& request, const PatchMap& a, const PatchMap& b) {
+  if (request.pose.empty()) {
+    if (a.frame == b.frame || a.patches.empty() || b.patches.empty()) return UncertainPose{};
+    return Error{ErrorCode::usage, called(request.b) + ": its patches stand in frame \"" + b.frame +
+                                       "\", those of " + called(request.a) + " in \"" + a.frame +
+                                       "\"; give the pose between them with --pose."};
+  }
+  const Result<Bytes> bytes = read_file(request.pose);
+  if (!bytes) return bytes.error();
+  const Result<Chain> chain = parse_pose(as_text(*bytes), called(request.pose));
+  if (!chain) return chain.error();
+  return compose(*chain);
+}
+
+// The sources of B under ids of their own, where A's mean other scans.
+void rename_sources(const PatchSet& a, PatchSet& b) {
+  for (PatchSource& source : b.sources) {
+    const std::string old = source.id;
+    for (const PatchSource& other : a.sources) {
+      if (other.id == source.id && other.sha256 != source.sha256)
+        source.id += "@" + source.sha256.substr(0, 8);
+    }
+    for (PatchRecord& record : b.patches) {
+      if (record.source == old) record.source = source.id;
+    }
+  }
+}
+
+// A sight counts once: the patch of B that the map holds already, or nothing.
+std::string seen_before(const PatchMap& map, const PatchSet& b) {
+  for (const MapPatch& patch : map.patches) {
+    for (const Observation& seen : patch.observations) {
+      for (const PatchRecord& record : b.patches) {
+        if (!record.source.empty() && record.source == seen.source && record.id == seen.id) return record.id;
+      }
+    }
+  }
+  return {};
+}
+
+View view_of(const PatchSet& set, const UncertainPose& pose) {
+  View view{{}, {}, {}, pose};
+  for (const PatchRecord& record : set.patches) {
+    view.sources.push_back(record.source);
+    view.ids.push_back(record.id);
+    view.patches.push_back(record.patch);
+  }
+  return view;
+}
+
+std::string sentence(const Match& match, const PatchMap& map, const View& view) {
+  char numbers[120];
+  std::snprintf(numbers, sizeof numbers, ": distance %.2f (chi2 %.2f of %d, p %.3f), overlap %.0f %%",
+                std::sqrt(match.distance.chi2), match.distance.chi2, match.distance.dof,
+                match.distance.p_value, 100.0 * match.share);
+  return map.patches[match.a].id + " = " + view.ids[match.b] + numbers;
+}
+
+void report(const Association& found, const PatchMap& map, const View& view) {
+  for (const Match& match : found.matches) say(sentence(match, map, view));
+  const std::size_t matched = found.matches.size();
+  say(std::to_string(matched) + " of " + std::to_string(view.patches.size()) +
+      " patches matched and fused, " + std::to_string(view.patches.size() - matched) + " added.");
+  if (found.dof > 0 && chi_square_p_value(found.chi2, found.dof) < 1e-3) {
+    say("Together the matches contradict the pose (chi2 " + std::to_string(found.chi2) + " of " +
+        std::to_string(found.dof) + "): look at its covariance.");
+  }
+}
+
+Result<int> merge_sets(const MergeRequest& request) {
+  const Result<PatchSet> set_a = read_set(request.a);
+  if (!set_a) return set_a.error();
+  Result<PatchSet> set_b = read_set(request.b);
+  if (!set_b) return set_b.error();
+  rename_sources(*set_a, *set_b);
+  const Result<PatchMap> a = map_of(*set_a, called(request.a)), b = map_of(*set_b, called(request.b));
+  if (!a) return a.error();
+  if (!b) return b.error();
+  const Result<UncertainPose> pose = a_from_b(request, *a, *b);
+  if (!pose) return pose.error();
+  PatchMap map = *a;
+  if (map.frame.empty()) map.frame = b->frame;
+  if (const std::string id = seen_before(map, *set_b); !id.empty()) {
+    return Error{ErrorCode::usage,
+                 called(request.b) + ": patch \"" + id + "\" is in " + called(request.a) +
+                     " already, from the same source; a sight counts once, so leave it out."};
+  }
+  const View view = view_of(*set_b, *pose);
+  const Association found = associate(patches_of(map), view.patches, *pose, {.gate = request.gate});
+  report(found, map, view);
+  const Result<std::string> text =
+      write_patch_set(set_of(merge(map, view, found.matches).map, *set_a, *set_b));
+  if (!text) return text.error();
+  Outputs outputs;
+  outputs.add(request.output, *text);
+  return outputs.write();
+}
+
+}  // namespace
+
+Action set_up_map_merge(CLI::App& app) {
+  const auto request = std::make_shared<MergeRequest>();
+  app.add_option("a", request->a, "the map: a patch set, or what an earlier merge wrote")->required();
+  app.add_option("b", request->b, "the patch set to merge into it")->required();
+  app.add_option(
+      "--pose", request->pose,
+      "pose of B's frame in A's: what map chain takes, or what it prints; without it both are in one frame");
+  app.add_option("--gate", request->gate, "probability that no true pair is turned away")
+      ->check(CLI::Range(1e-6, 1.0 - 1e-6))
+      ->capture_default_str();
+  app.add_option("-o,--output", request->output, "where to write the map; standard output without it");
+  app.add_flag("--json", request->json, "print JSON, which it does anyway");
+  return [request] { return merge_sets(*request); };
+}
+
+}  // namespace patchlab

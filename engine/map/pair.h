@@ -1,0 +1,39 @@
+// Two patches that may be the same surface: how far apart they are in standard deviations, and what each says
+// about the other.
+#pragma once
+
+#include <optional>
+
+#include "engine/map/joint_update.h"
+#include "engine/map/overlap.h"
+#include "engine/patch/patch.h"
+
+namespace patchlab {
+
+// b stands in the frame of a by the pose a_from_b, whose error both know nothing else about.
+struct Pair {
+  const Patch& a;
+  const Patch& b;
+  const Pose& a_from_b;
+  Pose plane;  // at the middle of their overlap, z along their normals (`plane_of`)
+};
+Pose plane_of(const Patch& a, const Patch& b, const Overlap& overlap);
+
+struct PairDistance {
+  double chi2 = 0.0;  // squared Mahalanobis distance of the 2-jets, by the sum of the covariances
+  int dof = 0;        // directions that the two types can differ in
+  double p_value = 0.0;
+};
+// Nothing where the two share no sheet at the plane, or neither has a covariance.
+std::optional<PairDistance> pair_distance(const Pair& pair, const Matrix6d& cov_pose);
+
+// What one patch says about the other. Of one type, all of the surface; of two, the 2-jet at the overlap, and
+// the richer type stands. Nothing where neither has a covariance, or where the 2-jet is asked for and
+// missing.
+struct PairMeasurement {
+  bool stands_a = true;  // the patch that is updated: a, or else b
+  Measurement measurement;
+};
+std::optional<PairMeasurement> measure_pair(const Pair& pair);
+
+}  // namespace patchlab

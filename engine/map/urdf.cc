@@ -1,0 +1,202 @@
+#include <console_bridge/console.h>
+#include <tinyxml.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <cctype>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "engine/map/robot.h"
+
+namespace patchlab {
+namespace {
+
+constexpr int deepest = 100;  // elements within elements
+constexpr std::size_t most_links = 10000;
+
+// urdfdom says what is wrong to a log; the first sentence of it goes into ours, and nothing is printed.
+class Listener : public console_bridge::OutputHandler {
+ public:
+  Listener() : lock_(turn()) { console_bridge::useOutputHandler(this); }
+  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (first_.empty() && level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) first_ = text;
+  }
+  const std::string& first() const { return first_; }
+
+ private:
+  static std::mutex& turn() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  std::lock_guard<std::mutex> lock_;
+  std::string first_;
+};
+
+// The parser recurses; a file nested so deep is none of a robot.
+bool too_deep(std::string_view text) {
+  int depth = 0;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i] == '<' && (std::isalpha(static_cast<unsigned char>(text[i + 1])) || text[i + 1] == '_'))
+      ++depth;
+    if ((text[i] == '<' && text[i + 1] == '/') || (text[i] == '/' && text[i + 1] == '>')) --depth;
+    if (depth > deepest) return true;
+  }
+  return false;
+}
+
+std::string link_of(const TiXmlElement& joint, const char* end) {
+  const TiXmlElement* const element = joint.FirstChildElement(end);
+  const char* const link = element == nullptr ? nullptr : element->Attribute("link");
+  return link == nullptr ? std::string() : link;
+}
+
+// Why the joints make no tree, or nothing. Asked before urdfdom reads them: it counts references to its
+// links, and a loop of them would never be freed.
+std::string no_tree(const std::string& text) {
+  TiXmlDocument document;
+  document.Parse(text.c_str());
+  const TiXmlElement* const robot = document.FirstChildElement("robot");
+  const TiXmlElement* joint = robot == nullptr ? nullptr : robot->FirstChildElement("joint");
+  std::map<std::string, std::string> parents;
+  for (; joint != nullptr; joint = joint->NextSiblingElement("joint")) {
+    const std::string child = link_of(*joint, "child");
+    if (!child.empty() && !parents.emplace(child, link_of(*joint, "parent")).second)
+      return "link \"" + child + "\" is the child of two joints";
+  }
+  std::set<std::string> in_order;
+  for (const auto& [link, unused] : parents) {
+    std::set<std::string> path;
+    for (auto at = parents.find(link); at != parents.end() && !in_order.contains(at->first);
+         at = parents.find(at->second)) {
+      if (!path.insert(at->first).second) return "the joints above link \"" + at->first + "\" close a loop";
+    }
+    in_order.merge(path);
+  }
+  return {};
+}
+
+urdf::ModelInterfaceSharedPtr parsed(const std::string& text, std::string& problem) {
+  Listener listener;
+  urdf::ModelInterfaceSharedPtr model;
+  try {
+    model = urdf::parseURDF(text);
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  if (!model && problem.empty()) problem = listener.first();
+  return model;
+}
+
+Vector3d vector(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+Pose pose_of(const urdf::Pose& pose) {
+  double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
+  pose.rotation.getQuaternion(x, y, z, w);
+  const Eigen::Vector4d q = Eigen::Vector4d(x, y, z, w).normalized();
+  const Vector3d v = q.head<3>();
+  // R of the unit quaternion (v, w).
+  const Matrix3d R =
+      (2.0 * q[3] * q[3] - 1.0) * Matrix3d::Identity() + 2.0 * (v * v.transpose() + q[3] * skew(v));
+  return {log_map(R), vector(pose.position)};
+}
+
+struct Kind {
+  int urdf;
+  JointKind kind;
+};
+constexpr Kind kinds[] = {{urdf::Joint::FIXED, JointKind::fixed},
+                          {urdf::Joint::REVOLUTE, JointKind::turning},
+                          {urdf::Joint::CONTINUOUS, JointKind::turning},
+                          {urdf::Joint::PRISMATIC, JointKind::sliding}};
+
+// A joint as a RobotJoint; the reason why it is none in `problem`.
+RobotJoint joint_of(const urdf::Joint& from, std::string& problem) {
+  RobotJoint joint;
+  joint.name = joint.driver = from.name;
+  joint.parent = from.parent_link_name;
+  joint.child = from.child_link_name;
+  const Kind* kind = nullptr;
+  for (const Kind& row : kinds) {
+    if (row.urdf == from.type) kind = &row;
+  }
+  if (kind == nullptr) {
+    problem = "joint \"" + from.name + "\" is neither fixed, revolute, continuous nor prismatic";
+    return joint;
+  }
+  joint.kind = kind->kind;
+  joint.parent_from_joint = pose_of(from.parent_to_joint_origin_transform);
+  const Vector3d axis = vector(from.axis);
+  const bool moves = joint.kind != JointKind::fixed;
+  if (!joint.parent_from_joint.vector().allFinite() || (moves && !(axis.norm() > 1e-9 && axis.allFinite()))) {
+    problem = "joint \"" + from.name + "\" has an axis of no length, or a number that is not finite";
+    return joint;
+  }
+  if (moves) joint.axis = axis.normalized();
+  if (moves && from.mimic) {
+    joint.driver = from.mimic->joint_name;
+    joint.multiplier = from.mimic->multiplier;
+    joint.offset = from.mimic->offset;
+  }
+  return joint;
+}
+
+// A joint may mimic one that mimics: follow them to the one that is driven.
+void resolve_mimics(Robot& robot, std::string& problem) {
+  std::map<std::string, RobotJoint> by_name;
+  for (const RobotJoint& joint : robot.joints) by_name[joint.name] = joint;
+  for (RobotJoint& joint : robot.joints) {
+    for (std::size_t step = 0; by_name.contains(joint.driver) && by_name[joint.driver].driver != joint.driver;
+         ++step) {
+      const RobotJoint& next = by_name[joint.driver];
+      if (joint.driver == joint.name) break;
+      joint.offset += joint.multiplier * next.offset;
+      joint.multiplier *= next.multiplier;
+      joint.driver = next.driver;
+      if (step > robot.joints.size()) break;
+    }
+    const auto driver = by_name.find(joint.driver);
+    const bool driven = driver != by_name.end() && driver->second.driver == joint.driver &&
+                        driver->second.kind != JointKind::fixed;
+    if (joint.kind != JointKind::fixed && !driven && problem.empty()) {
+      problem = "joint \"" + joint.name + "\" mimics \"" + joint.driver +
+                "\", which is no joint that moves by itself";
+    }
+  }
+}
+
+void add_children(Robot& robot, const urdf::Link& link, std::string& problem) {
+  robot.links.push_back(link.name);
+  for (const auto& child : link.child_links) {
+    robot.joints.push_back(joint_of(*child->parent_joint, problem));
+    add_children(robot, *child, problem);
+  }
+}
+
+}  // namespace
+
+Result<Robot> read_urdf(std::string_view text, const std::string& name) {
+  const auto wrong = [&](const std::string& what) {
+    return Error{ErrorCode::unreadable, name + ": " + what + "; correct the URDF."};
+  };
+  if (too_deep(text)) return wrong("elements are nested more than " + std::to_string(deepest) + " deep");
+  std::string problem = no_tree(std::string(text));
+  if (!problem.empty()) return wrong(problem);
+  const urdf::ModelInterfaceSharedPtr model = parsed(std::string(text), problem);
+  if (!model || !model->getRoot())
+    return wrong("this is no robot (" + (problem.empty() ? "no root link" : problem) + ")");
+  if (model->links_.size() > most_links)
+    return wrong("it has more than " + std::to_string(most_links) + " links");
+  Robot robot{model->getName(), model->getRoot()->name, {}, {}};
+  add_children(robot, *model->getRoot(), problem);
+  resolve_mimics(robot, problem);
+  if (!problem.empty()) return wrong(problem);
+  if (robot.links.size() != model->links_.size())
+    return wrong("not every link hangs on the root \"" + robot.base + "\"");
+  return robot;
+}
+
+}  // namespace patchlab
