@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <iterator>
 
 #include "engine/base/file.h"
 #include "engine/fit/fit_patch.h"
 #include "engine/io/read_scan.h"
 #include "engine/project/command.h"
+#include "engine/region/grow.h"
 #include "engine/region/observe.h"
 
 namespace patchlab {
@@ -112,21 +115,53 @@ Result<Ids> with_indices(const ScanEntry& entry, Ids ids) {
                                           std::to_string(entry.scan->size()) + " points."};
 }
 
-Result<Ids> selected(const Select& select, const ScanEntry& entry) {
-  if (select.label) return with_label(entry, *select.label);
-  if (select.indices) return with_indices(entry, *select.indices);
-  if (select.visible_only) {
-    return wrong("A lasso on visible points only is not supported by this version; select through instead.");
+// How far the noise spreads a surface: six standard deviations of a typical point in its worst direction, m.
+double thickness(const ScanEntry& entry) {
+  constexpr std::size_t most_asked = 200;
+  const Scan& scan = *entry.scan;
+  const bool stored = entry.noise.from_file();
+  std::vector<double> variances;
+  for (std::size_t i = 0; i < scan.size(); i += 1 + scan.size() / most_asked) {
+    if (!scan.finite[i]) continue;
+    const auto c = stored ? scan.covariances[i] : Covariance6{};
+    variances.push_back(stored ? c[0] + c[3] + c[5]
+                               : covariance(entry.noise, scan.viewpoint, scan.point(i)).trace());
   }
-  return select_lasso(*entry.scan, select.camera, select.polygon);
+  if (variances.empty()) return 0.0;
+  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+  std::nth_element(variances.begin(), middle, variances.end());
+  return std::isfinite(*middle) ? 6.0 * std::sqrt(std::max(*middle, 0.0)) : 0.0;
 }
 
-Result<void> run(Select& select, Document& document, const ApplyOptions&) {
+Ids seen_among(const ScanEntry& entry, const Select& select, const Ids& ids, const ApplyOptions& options) {
+  const std::shared_ptr<VisibilityCache> cache =
+      options.visibility ? options.visibility : std::make_shared<VisibilityCache>();
+  const auto seen = cache->get(entry.scan, select.camera, thickness(entry));
+  Ids kept;
+  std::ranges::copy_if(ids, std::back_inserter(kept), [&seen](std::uint32_t id) { return (*seen)[id] != 0; });
+  return kept;
+}
+
+// `hidden` becomes how many points a lasso on visible points left out.
+Result<Ids> selected(const Select& select, const ScanEntry& entry, const ApplyOptions& options,
+                     std::size_t& hidden) {
+  if (select.label) return with_label(entry, *select.label);
+  if (select.indices) return with_indices(entry, *select.indices);
+  if (select.flood) return flood(*entry.scan, *select.flood, {}, options.progress);
+  Ids inside = select_lasso(*entry.scan, select.camera, select.polygon);
+  if (!select.visible_only) return inside;
+  Ids seen = seen_among(entry, select, inside, options);
+  hidden = inside.size() - seen.size();
+  return seen;
+}
+
+Result<void> run(Select& select, Document& document, const ApplyOptions& options) {
   const ScanEntry* scan = find_scan(document, select.scan);
   if (scan == nullptr) return unknown("scan", select.scan);
   if (select.region.empty()) select.region = free_id(document, "region");
   if (find_scan(document, select.region) || find_patch(document, select.region)) return taken(select.region);
-  Result<Ids> ids = selected(select, *scan);
+  std::size_t hidden = 0;
+  Result<Ids> ids = selected(select, *scan, options, hidden);
   if (!ids) return ids.error();
   const RegionEntry* before = find_region(document, select.region);
   const bool changes = before != nullptr && select.mode != SelectMode::set;
@@ -141,6 +176,33 @@ Result<void> run(Select& select, Document& document, const ApplyOptions&) {
   RegionEntry& region = find_or_add(document.regions, select.region);
   region.scan = select.scan;
   region.points = std::make_shared<const Ids>(std::move(*ids));
+  region.hidden_left_out = hidden;
+  return {};
+}
+
+Result<Ids> reshaped(const Reshape& reshape, const Scan& scan, const Ids& ids, const Progress& progress) {
+  switch (reshape.how) {
+    case Reshaping::invert:
+      return invert(scan, ids);
+    case Reshaping::grow:
+      return grow(scan, ids, reshape.steps);
+    case Reshaping::shrink:
+      return shrink(scan, ids, reshape.steps);
+    case Reshaping::linked:
+      return linked(scan, ids, progress);
+  }
+  return ids;
+}
+
+Result<void> run(Reshape& reshape, Document& document, const ApplyOptions& options) {
+  RegionEntry* region = find(document.regions, reshape.region);
+  if (region == nullptr) return unknown("region", reshape.region);
+  if (reshape.steps < 1) return wrong("A region is grown or shrunk by one ring of points or more.");
+  Result<Ids> ids =
+      reshaped(reshape, *find_scan(document, region->scan)->scan, *region->points, options.progress);
+  if (!ids) return ids.error();
+  region->points = std::make_shared<const Ids>(std::move(*ids));
+  region->hidden_left_out = 0;
   return {};
 }
 

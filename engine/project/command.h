@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "engine/io/scan_options.h"
 #include "engine/project/document.h"
 #include "engine/region/lasso.h"
+#include "engine/region/visibility.h"
 
 namespace patchlab {
 
@@ -33,15 +35,24 @@ struct OpenScan {
 struct SetNoise {
   std::string scan, noise;
 };
-// Makes a region, or changes the one of that name: by a lasso, a label or ids of points, exactly one of them.
+// Makes a region, or changes the one of that name: by a lasso, the smooth surface around a point, a label or
+// ids of points, exactly one of them.
 struct Select {
   std::string region, scan;
   SelectMode mode = SelectMode::set;
   std::vector<Eigen::Vector2d> polygon = {};  // viewport pixels; empty where label or indices is used
   ViewCamera camera = {};
-  bool visible_only = false;                // only points that nothing hides: refused, as yet
+  bool visible_only = false;                // of the lasso: only points that nothing hides from the camera
   std::optional<std::uint32_t> label = {};  // the points of one label instead
   std::optional<std::vector<std::uint32_t>> indices = {};
+  std::optional<Eigen::Vector3d> flood = {};  // m, frame of the points: where the surface was pointed at
+};
+// Makes a region another one of the same scan: engine/region/grow.h says how.
+enum class Reshaping { invert, grow, shrink, linked };
+struct Reshape {
+  std::string region;
+  Reshaping how = Reshaping::grow;
+  int steps = 1;  // rings, of grow and shrink
 };
 // Fits a patch to a region as it is now, or fits the patch of that name again. Later changes of the region
 // leave it alone.
@@ -64,7 +75,7 @@ struct Show {
 struct Undo {};
 struct Redo {};
 
-using Command = std::variant<OpenScan, SetNoise, Select, Fit, Rename, Delete, Show, Undo, Redo>;
+using Command = std::variant<OpenScan, SetNoise, Select, Reshape, Fit, Rename, Delete, Show, Undo, Redo>;
 
 // One line of a journal, and back. unreadable error: `name` (where it stands), and the member that is wrong.
 nlohmann::ordered_json to_json(const Command& command);
@@ -76,6 +87,8 @@ struct ApplyOptions {
   std::filesystem::path folder;             // relative scan files are looked for here
   std::optional<std::filesystem::path> on;  // replay on another scan file (--on): its bytes may differ
   Progress progress;
+  std::shared_ptr<VisibilityCache> visibility =
+      {};  // optional: keeps what a still camera sees between lassos
 };
 
 // The document after a command other than Undo and Redo; fills in what the command left open (hashes).

@@ -10,6 +10,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::uint64_t largest_id = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t most_steps = 1000;  // of one reshape
 
 struct ModeName {
   SelectMode mode;
@@ -23,6 +24,20 @@ constexpr ModeName modes[] = {{SelectMode::set, "set"},
 std::optional<SelectMode> mode_from_name(std::string_view name) {
   const auto* row = std::ranges::find(modes, name, &ModeName::name);
   return row == std::end(modes) ? std::nullopt : std::optional(row->mode);
+}
+
+struct ReshapingName {
+  Reshaping how;
+  std::string_view name;
+};
+constexpr ReshapingName reshapings[] = {{Reshaping::invert, "invert"},
+                                        {Reshaping::grow, "grow"},
+                                        {Reshaping::shrink, "shrink"},
+                                        {Reshaping::linked, "linked"}};
+
+std::optional<Reshaping> reshaping_from_name(std::string_view name) {
+  const auto* row = std::ranges::find(reshapings, name, &ReshapingName::name);
+  return row == std::end(reshapings) ? std::nullopt : std::optional(row->how);
 }
 
 std::optional<bool> sensor_from_name(std::string_view name) {
@@ -97,16 +112,18 @@ ordered_json write(const SetNoise& set) {
 }
 
 void read(const JsonPlace& place, Select& select) {
-  place.only({"do", "region", "scan", "mode", "label", "indices", "polygon", "camera", "visible_only"});
+  place.only(
+      {"do", "region", "scan", "mode", "label", "indices", "flood", "polygon", "camera", "visible_only"});
   select.region = place["region"].text();
   select.scan = place["scan"].text();
   may_name(place, "mode", select.mode, mode_from_name);
   may(place, "label", select.label, read_id);
   may(place, "indices", select.indices, read_ids);
+  may(place, "flood", select.flood, read_position);
   may(place, "polygon", select.polygon, read_polygon);
-  const int ways =
-      int{select.label.has_value()} + int{select.indices.has_value()} + int{!select.polygon.empty()};
-  must(ways == 1, place, "needs one of the members polygon, label and indices");
+  const int ways = int{select.label.has_value()} + int{select.indices.has_value()} +
+                   int{select.flood.has_value()} + int{!select.polygon.empty()};
+  must(ways == 1, place, "needs one of the members polygon, flood, label and indices");
   if (select.polygon.empty()) return;
   select.camera = read_camera(place["camera"]);
   may(place, "visible_only", select.visible_only, &JsonPlace::boolean);
@@ -119,12 +136,35 @@ ordered_json write(const Select& select) {
     object["label"] = *select.label;
   } else if (select.indices) {
     object["indices"] = *select.indices;
+  } else if (select.flood) {
+    object["flood"] = list(*select.flood);
   } else {
     ordered_json& polygon = object["polygon"] = ordered_json::array();
     for (const Eigen::Vector2d& vertex : select.polygon) polygon.push_back(list(vertex));
     object["camera"] = write(select.camera);
     object["visible_only"] = select.visible_only;
   }
+  return object;
+}
+
+int read_steps(const JsonPlace& place) {
+  const std::uint64_t steps = place.whole_number(most_steps);
+  must(steps >= 1, place, "must be at least 1");
+  return static_cast<int>(steps);
+}
+
+void read(const JsonPlace& place, Reshape& reshape) {
+  place.only({"do", "region", "how", "steps"});
+  reshape.region = place["region"].text();
+  (void)place["how"].text();
+  may_name(place, "how", reshape.how, reshaping_from_name);
+  may(place, "steps", reshape.steps, read_steps);
+}
+
+ordered_json write(const Reshape& reshape) {
+  ordered_json object = {{"do", "reshape"}, {"region", reshape.region}};
+  object["how"] = std::ranges::find(reshapings, reshape.how, &ReshapingName::how)->name;
+  if (reshape.steps != 1) object["steps"] = reshape.steps;
   return object;
 }
 
@@ -186,10 +226,15 @@ struct Verb {
   Command (*read)(const JsonPlace& place);
 };
 constexpr Verb verbs[] = {
-    {"open_scan", read_command<OpenScan>}, {"set_noise", read_command<SetNoise>},
-    {"select", read_command<Select>},      {"fit", read_command<Fit>},
-    {"rename", read_command<Rename>},      {"delete", read_command<Delete>},
-    {"show", read_command<Show>},          {"undo", read_command<Undo>},
+    {"open_scan", read_command<OpenScan>},
+    {"set_noise", read_command<SetNoise>},
+    {"select", read_command<Select>},
+    {"reshape", read_command<Reshape>},
+    {"fit", read_command<Fit>},
+    {"rename", read_command<Rename>},
+    {"delete", read_command<Delete>},
+    {"show", read_command<Show>},
+    {"undo", read_command<Undo>},
     {"redo", read_command<Redo>},
 };
 

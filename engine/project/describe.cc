@@ -32,13 +32,20 @@ std::string spell(const SetNoise& set, const Document& after) {
 std::string spell(const Select& select, const Document& after) {
   const std::string how = select.label     ? "label " + std::to_string(*select.label)
                           : select.indices ? "points"
+                          : select.flood   ? "surface"
                                            : "lasso";
   const std::string what = select.mode == SelectMode::set        ? " "
                            : select.mode == SelectMode::add      ? " added to "
                            : select.mode == SelectMode::subtract ? " taken from "
                                                                  : " within ";
-  return how + what + called(after, select.region) +
-         points(find_region(after, select.region)->points->size());
+  const RegionEntry& region = *find_region(after, select.region);
+  return how + what + region.name + points(region.points->size());
+}
+
+std::string spell(const Reshape& reshape, const Document& after) {
+  constexpr const char* words[] = {"invert ", "grow ", "shrink ", "all linked to "};
+  const RegionEntry& region = *find_region(after, reshape.region);
+  return words[static_cast<std::size_t>(reshape.how)] + region.name + points(region.points->size());
 }
 
 std::string spell(const Fit& fit, const Document& after) {

@@ -30,6 +30,7 @@ struct RegionEntry {
   std::string scan;                                          // id
   std::shared_ptr<const std::vector<std::uint32_t>> points;  // ascending ids
   bool visible = true;
+  std::size_t hidden_left_out = 0;  // points inside the last contour that others hide (visible only)
 };
 
 struct PatchEntry {

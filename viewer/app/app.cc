@@ -13,6 +13,7 @@ namespace patchlab::viewer {
 namespace {
 
 constexpr double notice_seconds = 5.0, error_seconds = 12.0;
+constexpr std::size_t most_earlier_work = 8;
 constexpr double idle_patience = 0.5, toast_patience = 0.1;
 
 std::string time_of_day() {
@@ -49,6 +50,7 @@ App::App(Platform& platform, Renderer renderer, AppOptions options)
       options_(std::move(options)),
       workbench_({options_.journals, options_.keep_journals}, [&platform] { platform.wake(); }) {
   state_.theme = options_.theme;
+  find_earlier_work();
   platform_.on_drop([this](const std::vector<std::string>& files) {
     for (const std::string& file : files) open(file);
   });
@@ -57,6 +59,14 @@ App::App(Platform& platform, Renderer renderer, AppOptions options)
 void App::open(const std::filesystem::path& file) {
   journal_to_show_ = file.extension() == ".patchlab" ? std::optional(file) : std::nullopt;
   workbench_.open(file);
+}
+
+// All but what is open.
+void App::find_earlier_work() {
+  if (!options_.keep_journals) return;
+  state_.earlier = earlier_work(options_.journals, most_earlier_work);
+  std::erase_if(state_.earlier,
+                [this](const EarlierWork& work) { return work.journal == workbench_.session().journal(); });
 }
 
 double App::aspect() const { return layout_.view.width / std::max(1.0f, layout_.view.height); }
@@ -97,7 +107,8 @@ void App::show_new_document() {
   }
   state_.can_undo = session.can_undo();
   state_.can_redo = session.can_redo();
-  state_.journal = short_path(session.journal());
+  const std::string journal = short_path(session.journal());
+  if (std::exchange(state_.journal, journal) != journal) find_earlier_work();
   const Document& document = workbench_.document();
   if (!exists(document, state_.selected)) state_.selected = newest(document);
   platform_.set_title(document.scans.empty() ? "patchlab" : document.scans.back().name + " - patchlab");

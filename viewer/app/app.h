@@ -55,6 +55,7 @@ class App {
   void show_new_document();
   void set_up_camera();
   void make_shades();
+  void find_earlier_work();
   void draw();
   void toast(const std::string& text, bool is_error);
   double aspect() const;
@@ -66,6 +67,12 @@ class App {
   void release(Button button);
   void double_click();
   void click();
+  void select_surface();
+  struct Pointed {
+    std::string scan;
+    Eigen::Vector3d point;  // m
+  };
+  std::optional<Pointed> point_under_pointer() const;
   void lasso(LassoTool::Outcome outcome);
   void handle_keys();
   LassoView lasso_view() const;
@@ -81,6 +88,8 @@ class App {
   void cancel();
   void keep();
   void remove_selected();
+  void hide_selected();
+  void show_all();
   void rename_selected();
   void choose_surface(SurfaceRequest surface);
   void select(const std::string& id);

@@ -70,14 +70,22 @@ void App::press(Button button) {
     if (left) pressed_ = pointer();
     return;
   }
-  lasso(lasso_.press(pointer(), mode_of(modifiers(), state_.mode), lasso_view()));
+  if (state_.tool == Tool::surface) {
+    pressed_ = pointer();
+    return;
+  }
+  const ContourShape shape =
+      state_.tool == Tool::rectangle ? ContourShape::rectangle : ContourShape::freehand;
+  lasso(lasso_.press(pointer(), mode_of(modifiers(), state_.mode), lasso_view(), shape));
 }
 
 void App::release(Button button) {
   navigation_.release(button);
   if (button != Button::left) return;
   const double reach = LassoTool::drag_threshold * platform_.scale();
-  if (pressed_ && state_.tool == Tool::orbit && (pointer() - *pressed_).norm() < reach) click();
+  const bool clicked = pressed_ && (pointer() - *pressed_).norm() < reach;
+  if (clicked && state_.tool == Tool::orbit) click();
+  if (clicked && state_.tool == Tool::surface) select_surface();
   pressed_.reset();
   lasso(lasso_.release(pointer(), lasso_view()));
 }
@@ -87,12 +95,32 @@ void App::double_click() {
   const LassoTool::Outcome outcome = lasso_.double_click();
   lasso(outcome);
   if (outcome == LassoTool::Outcome::closed) return;
+  if (const std::optional<Pointed> pointed = point_under_pointer()) stage_.set_pivot(pointed->point);
+}
+
+// Of all scans that are shown, the nearest.
+std::optional<App::Pointed> App::point_under_pointer() const {
+  std::optional<Pointed> nearest;
+  const auto depth = [camera = view()](const Pointed& at) { return project(camera, at.point).depth; };
   for (const ScanEntry& entry : workbench_.document().scans) {
     if (!entry.visible || !entry.scan) continue;
     const std::optional<std::uint32_t> point =
         pick_point(*entry.scan, view(), pointer(), pick_window * platform_.scale());
-    if (point) return stage_.set_pivot(entry.scan->point(*point));
+    if (!point) continue;
+    const Pointed at{entry.id, entry.scan->point(*point)};
+    if (!nearest || depth(at) < depth(*nearest)) nearest = at;
   }
+  return nearest;
+}
+
+void App::select_surface() {
+  const std::optional<Pointed> pointed = point_under_pointer();
+  if (!pointed) return toast("There is no point under the pointer.", false);
+  Stroke stroke;
+  stroke.mode = mode_of(modifiers(), state_.mode);
+  stroke.surface_at = pointed->point;
+  stroke.scan = pointed->scan;
+  workbench_.select(stroke);
 }
 
 void App::click() {
@@ -101,7 +129,7 @@ void App::click() {
 }
 
 void App::lasso(LassoTool::Outcome outcome) {
-  const Stroke stroke{lasso_.mode(), lasso_.contour(view()), view()};
+  const Stroke stroke{lasso_.mode(), lasso_.contour(view()), view(), state_.visible_only};
   switch (outcome) {
     case LassoTool::Outcome::none:
       return;

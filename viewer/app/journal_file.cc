@@ -1,5 +1,7 @@
 #include "viewer/app/journal_file.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <ctime>
 
@@ -12,13 +14,56 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string time_stamp() {
-  const std::time_t now = std::time(nullptr);
+constexpr std::string_view stamp_shape = "-20260102-140211";
+
+std::string written(std::time_t time, const char* format) {
   std::tm local{};
-  localtime_r(&now, &local);
+  localtime_r(&time, &local);
   char text[32];
-  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
+  std::strftime(text, sizeof text, format, &local);
   return text;
+}
+
+std::string time_stamp() { return written(std::time(nullptr), "%Y%m%d-%H%M%S"); }
+
+// What new_journal_path() made the name of: "bench" of "bench-20260102-140211-2.patchlab".
+std::string scan_of(const fs::path& journal) {
+  const std::string stem = journal.stem().string();
+  const auto is_stamp = [&stem](std::size_t at) {
+    return std::equal(stamp_shape.begin(), stamp_shape.end(), stem.begin() + static_cast<std::ptrdiff_t>(at),
+                      [](char shape, char c) { return shape == '-' ? c == '-' : c >= '0' && c <= '9'; });
+  };
+  for (std::size_t at = 0; at + stamp_shape.size() <= stem.size(); ++at) {
+    if (is_stamp(at)) return stem.substr(0, at);
+  }
+  return stem;
+}
+
+struct Written {
+  fs::path file;
+  fs::file_time_type time;
+};
+
+std::vector<Written> newest_journals(const fs::path& folder) {
+  std::vector<Written> journals;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code gone;
+    const fs::file_time_type time = entry->last_write_time(gone);
+    if (!gone && entry->path().extension() == ".patchlab") journals.push_back({entry->path(), time});
+  }
+  std::sort(journals.begin(), journals.end(),
+            [](const Written& a, const Written& b) { return a.time > b.time; });
+  return journals;
+}
+
+// Lines of commands: what was done in it.
+std::size_t steps_in(const fs::path& journal) {
+  const Result<Bytes> bytes = read_file(journal);
+  if (!bytes) return 0;
+  const std::string_view text = as_text(*bytes);
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  return lines > 0 ? lines - 1 : 0;
 }
 
 Result<std::vector<Command>> commands_of(const fs::path& journal) {
@@ -50,6 +95,21 @@ Result<fs::path> new_journal_path(const fs::path& folder, const fs::path& scan) 
     journal = folder / (stem + "-" + std::to_string(next) + ".patchlab");
   }
   return journal;
+}
+
+std::vector<EarlierWork> earlier_work(const fs::path& folder, std::size_t most) {
+  std::vector<EarlierWork> works;
+  for (const Written& journal : newest_journals(folder)) {
+    if (works.size() == most) break;
+    const std::size_t steps = steps_in(journal.file);
+    if (steps < 2) continue;  // a scan was opened, and nothing done
+    const auto time = std::chrono::file_clock::to_sys(journal.time);
+    const std::time_t seconds =
+        std::chrono::system_clock::to_time_t(std::chrono::time_point_cast<std::chrono::seconds>(time));
+    works.push_back({journal.file, scan_of(journal.file),
+                     std::to_string(steps) + " steps, " + written(seconds, "%-d %b %H:%M")});
+  }
+  return works;
 }
 
 bool lies_in(const fs::path& file, const fs::path& folder) {

@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
 #include "engine/project/session.h"
+#include "viewer/panel/view_state.h"
 
 namespace patchlab::viewer {
 
@@ -17,6 +19,9 @@ std::filesystem::path default_journal_folder();
 // Makes the folder.
 Result<std::filesystem::path> new_journal_path(const std::filesystem::path& folder,
                                                const std::filesystem::path& scan);
+
+// The journals of a folder in which more was done than opening a scan, newest first, `most` of them.
+std::vector<EarlierWork> earlier_work(const std::filesystem::path& folder, std::size_t most);
 
 // Whether a file lies directly in a folder, whatever links lead there.
 bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder);

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 // How much of a patch's size the exaggerated shapes may take.
-constexpr double ellipsoid_room = 0.22, band_room = 0.08, cone_room = 0.30 /* rad */;
+constexpr double ellipsoid_room = 0.22, band_room = 0.08, cone_room = 0.30 /* rad */, offset_room = 0.15;
 constexpr double axis_length = 0.62;
 constexpr int band_points = 128;
 constexpr float surface_alpha = 0.80f;
@@ -77,6 +77,40 @@ std::string add_band(const Patch& patch, const Vector3d& origin, const Rgba& col
   return "95 % band of the outline, " + exaggeration_words(times, "wider");
 }
 
+std::vector<std::uint32_t> triangles_of(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> triangles;
+  for (const auto face : mesh.faces()) {
+    for (const auto vertex : face.vertices()) triangles.push_back(static_cast<std::uint32_t>(vertex.idx()));
+  }
+  return triangles;
+}
+
+// The surface moved along its normals to both ends of where it lies with that probability.
+std::string add_offsets(const Patch& patch, const Vector3d& origin, const Rgba& colour, PatchScene& scene) {
+  const TriangleMesh mesh = surface_mesh(patch);
+  const std::vector<Vector2d> u = surface_coordinates(patch);
+  const double k = two_sided_normal_quantile(shown_probability);
+  std::vector<double> reach(u.size());
+  std::transform(u.begin(), u.end(), reach.begin(),
+                 [&](const Vector2d& at) { return k * height_sigma(patch, at); });
+  const int times = exaggeration(*std::max_element(reach.begin(), reach.end()), offset_room * size_of(patch));
+  const auto triangles = std::make_shared<const std::vector<std::uint32_t>>(triangles_of(mesh));
+  for (const double side : {1.0, -1.0}) {
+    std::vector<MeshVertex> vertices;
+    for (const auto vertex : mesh.vertices()) {
+      const auto& p = mesh.point(vertex);
+      const auto& n = mesh.normal(vertex);
+      const Vector3d normal(n[0], n[1], n[2]);
+      const Vector3d moved =
+          Vector3d(p[0], p[1], p[2]) + side * times * reach[static_cast<std::size_t>(vertex.idx())] * normal;
+      vertices.push_back({(moved - origin).cast<float>(), normal.cast<float>(), to_bytes(colour)});
+    }
+    scene.meshes.push_back(
+        {std::make_shared<const std::vector<MeshVertex>>(std::move(vertices)), triangles, true});
+  }
+  return "95 % of the height, " + exaggeration_words(times, "further off");
+}
+
 }  // namespace
 
 int exaggeration(double size, double room) {
@@ -116,12 +150,8 @@ SurfaceMesh surface_item(const Patch& patch, const Vector3d& origin, const std::
     vertices.push_back({(Vector3d(p[0], p[1], p[2]) - origin).cast<float>(),
                         Vector3d(n[0], n[1], n[2]).cast<float>(), to_bytes(colour)});
   }
-  std::vector<std::uint32_t> triangles;
-  for (const auto face : mesh.faces()) {
-    for (const auto vertex : face.vertices()) triangles.push_back(static_cast<std::uint32_t>(vertex.idx()));
-  }
   surface.item = {std::make_shared<const std::vector<MeshVertex>>(std::move(vertices)),
-                  std::make_shared<const std::vector<std::uint32_t>>(std::move(triangles)), true};
+                  std::make_shared<const std::vector<std::uint32_t>>(triangles_of(mesh)), true};
   return surface;
 }
 
@@ -135,13 +165,11 @@ PatchScene chosen_patch(const Patch& patch, const Vector3d& origin, const Layers
   scene.lines.push_back(outline_item(patch, origin, colour, 3.0f * scale));
   if (layers.axes) add_axes(patch, origin, theme, scale, scene);
   if (!patch.covariance_local) return scene;
-  std::vector<std::string> others;
   if (layers.ellipsoid) add_ellipsoid(patch, origin, theme, scale, scene);
-  if (layers.cone) others.push_back(add_cone(patch, origin, theme, scale, scene));
-  if (layers.band) others.push_back(add_band(patch, origin, colour, scene));
-  std::string line;
-  for (const std::string& note : others) line += (line.empty() ? "" : "  ·  ") + note;
-  if (!line.empty()) scene.notes.push_back(line);
+  if (layers.cone) scene.notes.push_back(add_cone(patch, origin, theme, scale, scene));
+  if (layers.offsets)
+    scene.notes.push_back(add_offsets(patch, origin, with_alpha(theme.accent, 0.30f), scene));
+  if (layers.band) scene.notes.push_back(add_band(patch, origin, colour, scene));
   return scene;
 }
 

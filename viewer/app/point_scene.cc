@@ -1,5 +1,6 @@
 #include "viewer/app/point_scene.h"
 
+#include <algorithm>
 #include <array>
 
 #include "viewer/panel/colours.h"
@@ -10,20 +11,53 @@ namespace {
 
 constexpr double residual_reach = 3.0;  // standard deviations at the ends of the residual colours
 
-void paint_base(const PointScene& in, const ScanEntry& entry, const Shades& shades,
-                std::vector<Rgba8>& colours) {
+constexpr std::size_t most_asked = 20'000;  // points, for their heights
+constexpr double beyond = 0.01;             // share of the points below and above what is coloured apart
+constexpr std::size_t shades_of_height = 256;
+
+void paint_shades(const PointScene& in, const Shades& shades, std::vector<Rgba8>& colours) {
   std::array<Rgba8, 256> by_shade;
   for (std::size_t i = 0; i < by_shade.size(); ++i) {
     by_shade[i] = to_bytes(mix(in.theme.point_dark, in.theme.point_lit, static_cast<float>(i) / 255.0f));
   }
-  const Scan& scan = *entry.scan;
-  const bool photo = in.state.colours == PointColours::photo && !scan.colours.empty();
+  for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = by_shade[shades ? (*shades)[i] : 160];
+}
+
+void paint_photo(const Scan& scan, std::vector<Rgba8>& colours) {
+  std::transform(scan.colours.begin(), scan.colours.end(), colours.begin(), [](const auto& colour) {
+    return Rgba8{colour[0], colour[1], colour[2], 255};
+  });
+}
+
+void paint_heights(const Scan& scan, const HeightRange& heights, std::vector<Rgba8>& colours) {
+  std::array<Rgba8, shades_of_height> by_height;
+  for (std::size_t i = 0; i < by_height.size(); ++i)
+    by_height[i] = to_bytes(sequential(static_cast<double>(i) / (shades_of_height - 1)));
+  const double scale = (shades_of_height - 1) / std::max(heights.high - heights.low, 1e-9);
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    if (photo)
-      colours[i] = {scan.colours[i][0], scan.colours[i][1], scan.colours[i][2], 255};
-    else
-      colours[i] = by_shade[shades ? (*shades)[i] : 160];
+    if (!scan.finite[i]) continue;
+    const double at = (heights.up.dot(scan.point(i)) - heights.low) * scale;
+    colours[i] = by_height[static_cast<std::size_t>(std::clamp(at, 0.0, shades_of_height - 1.0) + 0.5)];
   }
+}
+
+// Points without a label stay as they are.
+void paint_labels(const Scan& scan, std::vector<Rgba8>& colours) {
+  std::map<std::uint32_t, Rgba8> by_label;
+  for (std::size_t i = 0; i < scan.labels.size(); ++i) {
+    const std::uint32_t label = scan.labels[i];
+    if (label == 0) continue;
+    const auto [known, is_new] = by_label.try_emplace(label);
+    if (is_new) known->second = to_bytes(category_colour("label-" + std::to_string(label)));
+    colours[i] = known->second;
+  }
+}
+
+void paint_base(const PointScene& in, const Scan& scan, const Shades& shades, std::vector<Rgba8>& colours) {
+  paint_shades(in, shades, colours);
+  if (in.state.colours == PointColours::photo) paint_photo(scan, colours);
+  if (in.state.colours == PointColours::label) paint_labels(scan, colours);
+  if (in.heights) paint_heights(scan, *in.heights, colours);
 }
 
 void paint(const std::shared_ptr<const std::vector<std::uint32_t>>& ids, const Rgba8& colour,
@@ -61,6 +95,21 @@ void paint_outliers(const PatchEntry& entry, const Rgba& colour, std::vector<Rgb
 
 }  // namespace
 
+std::optional<HeightRange> height_range(const Document& document, const Eigen::Vector3d& up) {
+  std::vector<double> heights;
+  for (const ScanEntry& entry : document.scans) {
+    if (!entry.visible || !entry.scan) continue;
+    const Scan& scan = *entry.scan;
+    for (std::size_t i = 0; i < scan.size(); i += 1 + scan.size() / most_asked) {
+      if (scan.finite[i]) heights.push_back(up.dot(scan.point(i)));
+    }
+  }
+  if (heights.empty()) return std::nullopt;
+  std::sort(heights.begin(), heights.end());
+  const auto few = static_cast<std::size_t>(beyond * static_cast<double>(heights.size()));
+  return HeightRange{up, heights[few], heights[heights.size() - 1 - few]};
+}
+
 const RegionEntry* lit_region(const Document& document, const std::string& selected) {
   const PatchEntry* patch = find_patch(document, selected);
   return find_region(document, patch ? patch->region : selected);
@@ -68,7 +117,7 @@ const RegionEntry* lit_region(const Document& document, const std::string& selec
 
 std::vector<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, const Shades& shades) {
   std::vector<Rgba8> colours(entry.scan->size());
-  paint_base(in, entry, shades, colours);
+  paint_base(in, *entry.scan, shades, colours);
   const RegionEntry* lit = lit_region(in.document, in.state.selected);
   for (const RegionEntry& region : in.document.regions) {
     if (region.scan != entry.id || !region.visible || !region.points || &region == lit) continue;

@@ -17,10 +17,18 @@ namespace patchlab::viewer {
 // The shades of a scan, made once (viewer/app/point_shades.h) and shared.
 using Shades = std::shared_ptr<const std::vector<std::uint8_t>>;
 
+// Heights along the unit vector `up`, m: nearly all points that are shown lie between the two.
+struct HeightRange {
+  Eigen::Vector3d up;
+  double low, high;
+};
+std::optional<HeightRange> height_range(const Document& document, const Eigen::Vector3d& up);
+
 struct PointScene {
   const Document& document;
   const ViewState& state;
   const Theme& theme;
+  std::optional<HeightRange> heights = {};  // where points are coloured by them
 };
 
 // Region whose points are lit: the selected one, or that of the selected patch; nullptr where there is none.

@@ -31,6 +31,7 @@ void App::answer(const Requests& requests) {
   for (const Command& command : requests.commands) workbench_.run(command);
   if (requests.select) select(*requests.select);
   if (requests.surface) choose_surface(*requests.surface);
+  if (requests.noise) workbench_.set_noise(requests.noise->scan, requests.noise->noise);
   if (requests.history_position) workbench_.go_to(*requests.history_position);
   if (requests.open) open(*requests.open);
   if (requests.save_journal) workbench_.save_journal(*requests.save_journal);
@@ -50,6 +51,11 @@ bool App::choose(Action action) {
     state_.mode = *mode;
   else if (const auto surface = surface_of(action))
     choose_surface(*surface);
+  else if (const auto boundary = boundary_of(action)) {
+    state_.boundary = *boundary;
+    choose_surface(state_.surface);
+  } else if (const auto how = reshaping_of(action))
+    workbench_.reshape(*how);
   else if (const auto layer = layer_of(action))
     state_.layers.*layer = !(state_.layers.*layer);
   else if (const auto colours = colours_of(action)) {
@@ -71,6 +77,9 @@ bool App::act_on_contour_and_fit(Action action) {
       return true;
     case Action::keep:
       keep();
+      return true;
+    case Action::visible_only:
+      state_.visible_only = !state_.visible_only;
       return true;
     case Action::robust:
       state_.robust = !state_.robust;
@@ -148,8 +157,17 @@ void App::act_on_document(Action action) {
     case Action::remove:
       remove_selected();
       break;
+    case Action::hide:
+      hide_selected();
+      break;
+    case Action::show_all:
+      show_all();
+      break;
     case Action::rename:
       rename_selected();
+      break;
+    case Action::noise:
+      memory_.choose_noise = true;
       break;
     case Action::help:
       memory_.help = true;
@@ -182,6 +200,28 @@ void App::remove_selected() {
   workbench_.run(Delete{state_.selected});
 }
 
+void App::hide_selected() {
+  const Document& document = workbench_.document();
+  const auto turn = [this](const auto* entry) {
+    if (entry) workbench_.run(Show{entry->id, !entry->visible});
+    return entry != nullptr;
+  };
+  if (turn(find_patch(document, state_.selected)) || turn(find_region(document, state_.selected))) return;
+  turn(find_scan(document, state_.selected));
+}
+
+void App::show_all() {
+  const Document document = workbench_.document();
+  const auto show = [this](const auto& entries) {
+    for (const auto& entry : entries) {
+      if (!entry.visible) workbench_.run(Show{entry.id, true});
+    }
+  };
+  show(document.scans);
+  show(document.regions);
+  show(document.patches);
+}
+
 void App::rename_selected() {
   const Document& document = workbench_.document();
   if (const PatchEntry* patch = find_patch(document, state_.selected))
@@ -197,7 +237,7 @@ void App::rename_selected() {
 
 void App::choose_surface(SurfaceRequest surface) {
   state_.surface = surface;
-  workbench_.choose({surface, state_.robust});
+  workbench_.choose({surface, state_.robust, state_.boundary});
 }
 
 void App::select(const std::string& id) {

@@ -27,8 +27,8 @@ double fov_of(const Scan& scan) {
 }  // namespace
 
 void Stage::update(const Document& document, const ViewState& state, std::uint64_t generation, float scale) {
-  const Drawn wanted{generation,   state.selected, state.theme, state.colours,
-                     state.layers, scale,          shades_made_};
+  const Drawn wanted{generation,   state.selected, state.theme,  state.colours,
+                     state.layers, scale,          shades_made_, target().up};
   if (drawn_ == wanted) return;
   drawn_ = wanted;
   const Theme colours = theme(state.theme);
@@ -39,7 +39,9 @@ void Stage::update(const Document& document, const ViewState& state, std::uint64
   scene_.background_bottom = colours.view_bottom;
   if (!document.scans.empty() && document.scans.front().scan)
     scene_.origin = document.scans.front().scan->origin;
-  const PointScene in{document, state, colours};
+  PointScene in{document, state, colours};
+  if (state.colours == PointColours::height) in.heights = height_range(document, wanted.up);
+  if (in.heights) notes_.point_heights = Eigen::Vector2d(in.heights->low, in.heights->high);
   add_points(in);
   add_patches(in, scale);
   notes_.residual_colours = state.colours == PointColours::residual && find_patch(document, state.selected);

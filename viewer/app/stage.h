@@ -55,6 +55,7 @@ class Stage {
     Layers layers;
     float scale = 0;
     std::size_t shades_made = 0;
+    Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // heights are measured along it
     bool operator==(const Drawn&) const = default;
   };
   struct KnownSurface {

@@ -24,12 +24,16 @@ struct Stroke {
   SelectMode mode = SelectMode::set;
   std::vector<Eigen::Vector2d> polygon;  // viewport pixels
   ViewCamera camera;
+  bool visible_only = false;                    // leaves out what other points hide
+  std::optional<Eigen::Vector3d> surface_at{};  // m: in place of a contour, the smooth surface around a point
+  std::string scan{};                           // id: of that point
 };
 
 // What to fit, as the tool bar says.
 struct FitChoice {
   SurfaceRequest surface = SurfaceRequest::automatic;
   bool robust = true;
+  BoundaryRequest boundary = BoundaryRequest::automatic;
 };
 
 struct WorkbenchOptions {
@@ -59,6 +63,9 @@ class Workbench {
   void preview(const Stroke& stroke);
   void select(const Stroke& stroke);
   void drop_preview();
+  void reshape(Reshaping how);  // the region in focus
+  // An empty specification: what suits the scan where nobody says. Refits all patches of the scan.
+  void set_noise(const std::string& scan, const std::string& specification);
 
   // Which region a lasso changes and a fit is made of: the region of `id`, or of the patch `id`.
   void focus(const std::string& id);
@@ -108,9 +115,13 @@ class Workbench {
     double milliseconds = 0.0;
   };
 
-  static Outcome attempt(Document document, const std::optional<Select>& select, Fit fit,
-                         const Progress& progress);
-  bool can_select(const Stroke& stroke) const;
+  Outcome attempt(Document document, const std::optional<Select>& select, Fit fit,
+                  const Progress& progress) const;
+  ApplyOptions applying(const Progress& progress) const;  // for the worker's thread too
+  void change(const std::string& name, Command command);
+  void follow(const Command& command, std::optional<Draft> shown);  // refits what a change was about
+  // Why nothing can be selected so, as a sentence; nothing where it can.
+  std::optional<std::string> refusal(const Stroke& stroke) const;
   Select select_command(const Stroke& stroke) const;
   Fit fit_command(const std::string& region) const;
 
@@ -123,6 +134,7 @@ class Workbench {
   void open_journal(const std::filesystem::path& file);
   void open_scan(const std::filesystem::path& file);
   void record_scan(OpenScan command, Document after);
+  void tell_of_earlier_work(const std::filesystem::path& scan);
   Result<void> begin_journal(const std::filesystem::path& scan);
   bool record(const Command& command,
               Document after);  // false: it could not be written, and nothing has changed
@@ -137,6 +149,7 @@ class Workbench {
   WorkbenchOptions options_;
   Session session_;
   std::filesystem::path shown_journal_;  // where the session keeps none
+  std::shared_ptr<VisibilityCache> visibility_ = std::make_shared<VisibilityCache>();
   FitChoice choice_;
   std::string region_;  // in focus
   std::optional<Draft> draft_;

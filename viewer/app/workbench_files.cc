@@ -65,6 +65,7 @@ void Workbench::record_scan(OpenScan command, Document after) {
       report(begun.error());
       notices_.push_back("Nothing is being saved: the journal cannot be written.");
     }
+    tell_of_earlier_work(command.file);
   }
   command.file = session_.scan_file(command.file);
   const std::string id = command.id;
@@ -73,6 +74,15 @@ void Workbench::record_scan(OpenScan command, Document after) {
     notices_.insert(notices_.end(), entry.scan->notices.begin(), entry.scan->notices.end());
   }
   if (record(command, std::move(after))) selection_ = id;
+}
+
+void Workbench::tell_of_earlier_work(const std::filesystem::path& scan) {
+  for (const EarlierWork& work : earlier_work(options_.journals, 20)) {
+    if (work.scan != scan.stem()) continue;
+    notices_.push_back("There is earlier work on " + work.scan + " (" + work.remark + "): File, Go on with " +
+                       work.scan + ".");
+    return;
+  }
 }
 
 Result<void> Workbench::begin_journal(const std::filesystem::path& scan) {

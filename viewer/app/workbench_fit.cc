@@ -15,6 +15,14 @@ const PatchEntry* patch_of(const Document& document, const std::string& region) 
   return found == document.patches.end() ? nullptr : &*found;
 }
 
+// What a new region is drawn on: the scan that was pointed at, or the newest one that is shown.
+std::string scan_under(const Stroke& stroke, const Document& document) {
+  if (!stroke.scan.empty()) return stroke.scan;
+  const auto shown = std::find_if(document.scans.rbegin(), document.scans.rend(),
+                                  [](const ScanEntry& entry) { return entry.visible; });
+  return shown == document.scans.rend() ? std::string() : shown->id;
+}
+
 }  // namespace
 
 Select Workbench::select_command(const Stroke& stroke) const {
@@ -22,13 +30,15 @@ Select Workbench::select_command(const Stroke& stroke) const {
   Select select;
   const RegionEntry* focused = find_region(document, region_);
   const bool replaces_kept = stroke.mode == SelectMode::set && focused && patch_of(document, focused->id);
-  select.region = focused && !replaces_kept ? focused->id : free_id(document, "region");
-  select.scan = focused && !replaces_kept ? focused->scan
-                : document.scans.empty()  ? std::string()
-                                          : document.scans.back().id;
+  const bool changes = focused && !replaces_kept;
+  select.region = changes ? focused->id : free_id(document, "region");
+  select.scan = changes ? focused->scan : scan_under(stroke, document);
   select.mode = stroke.mode;
+  select.flood = stroke.surface_at;
+  if (select.flood) return select;
   select.polygon = stroke.polygon;
   select.camera = stroke.camera;
+  select.visible_only = stroke.visible_only;
   return select;
 }
 
@@ -39,22 +49,29 @@ Fit Workbench::fit_command(const std::string& region) const {
   fit.patch = kept ? kept->id : free_id(session_.document(), "patch");
   fit.options.surface = choice_.surface;
   fit.options.robust = choice_.robust;
+  fit.options.boundary = choice_.boundary;
   return fit;
 }
 
+ApplyOptions Workbench::applying(const Progress& progress) const {
+  ApplyOptions options = with_progress(progress);
+  options.visibility = visibility_;
+  return options;
+}
+
 Workbench::Outcome Workbench::attempt(Document document, const std::optional<Select>& select, Fit fit,
-                                      const Progress& progress) {
+                                      const Progress& progress) const {
   Outcome outcome;
   outcome.document = std::move(document);
   if (select) {
     Command command = *select;
-    Result<Document> selected = apply(outcome.document, command, with_progress(progress));
+    Result<Document> selected = apply(outcome.document, command, applying(progress));
     if (!selected) return {std::move(outcome.document), std::nullopt, selected.error()};
     outcome.document = std::move(*selected);
   }
   const auto start = std::chrono::steady_clock::now();
   Command command = std::move(fit);
-  Result<Document> fitted = apply(outcome.document, command, with_progress(progress));
+  Result<Document> fitted = apply(outcome.document, command, applying(progress));
   outcome.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (!fitted) {
@@ -66,14 +83,18 @@ Workbench::Outcome Workbench::attempt(Document document, const std::optional<Sel
   return outcome;
 }
 
-// Taking away needs something to take from.
-bool Workbench::can_select(const Stroke& stroke) const {
+std::optional<std::string> Workbench::refusal(const Stroke& stroke) const {
+  const Document& document = session_.document();
+  if (document.scans.empty()) return "There is no scan to select from; open one first.";
   const bool takes_away = stroke.mode == SelectMode::subtract || stroke.mode == SelectMode::intersect;
-  return !session_.document().scans.empty() && (!takes_away || !region_.empty());
+  if (takes_away && region_.empty()) return "Nothing is selected yet that could be taken away from.";
+  const ScanEntry* scan = find_scan(document, select_command(stroke).scan);
+  if (!scan || !scan->visible) return "The scan is hidden; show it to select from it.";
+  return std::nullopt;
 }
 
 void Workbench::preview(const Stroke& stroke) {
-  if (!can_select(stroke) || order_runs_) return;
+  if (refusal(stroke) || order_runs_) return;
   const Select select = select_command(stroke);
   currency_ = Currency::fitting;
   worker_.preview([this, select, fit = fit_command(select.region),
@@ -90,30 +111,58 @@ void Workbench::drop_preview() {
 
 void Workbench::select(const Stroke& stroke) {
   enqueue([this, stroke] {
-    if (!can_select(stroke)) {
-      notices_.push_back(session_.document().scans.empty()
-                             ? "There is no scan to select from; open one first."
-                             : "Nothing is selected yet that could be taken away from.");
+    if (const std::optional<std::string> why = refusal(stroke)) {
+      notices_.push_back(*why);
+    } else {
+      change({}, select_command(stroke));
+    }
+  });
+}
+
+void Workbench::reshape(Reshaping how) {
+  enqueue([this, how] {
+    if (region_.empty()) {
+      notices_.push_back("No region is chosen that could be changed.");
       return;
     }
-    worker_.drop_previews();
-    currency_ = Currency::fitting;
-    order({},
-          [this, command = Command(select_command(stroke)),
-           before = session_.document()](const Progress& progress) mutable -> Worker::Finish {
-            auto after = std::make_shared<Result<Document>>(apply(before, command, with_progress(progress)));
-            return [this, command, after] {
-              if (!*after) return report(after->error());
-              const bool keep_wanted = keep_when_ready_;
-              std::optional<Draft> shown = draft_;
-              if (!record(command, std::move(**after))) return;
-              draft_ = std::move(shown);  // until the fit of the recorded selection is there
-              region_ = std::get<Select>(command).region;
-              refit();
-              keep_when_ready_ = keep_wanted;
-            };
-          });
+    change("changing the region", Reshape{region_, how});
   });
+}
+
+void Workbench::set_noise(const std::string& scan, const std::string& specification) {
+  enqueue([this, scan, specification] { change("fitting again", SetNoise{scan, specification}); });
+}
+
+// Records what the command makes of the document; what is shown stays until the fit of it is there.
+void Workbench::change(const std::string& name, Command wanted) {
+  worker_.drop_previews();
+  currency_ = Currency::fitting;
+  order(name,
+        [this, command = std::move(wanted),
+         before = session_.document()](const Progress& progress) mutable -> Worker::Finish {
+          auto after = std::make_shared<Result<Document>>(apply(before, command, applying(progress)));
+          return [this, command, after] {
+            const bool keep_wanted = keep_when_ready_;
+            std::optional<Draft> shown = draft_;
+            if (!*after) report(after->error());
+            if (!*after || !record(command, std::move(**after))) {
+              keep_when_ready_ = false;
+              currency_ = draft_ ? Currency::current : Currency::nothing;
+              return;
+            }
+            follow(command, std::move(shown));
+            keep_when_ready_ = keep_wanted;
+          };
+        });
+}
+
+void Workbench::follow(const Command& command, std::optional<Draft> shown) {
+  if (const Select* select = std::get_if<Select>(&command)) region_ = select->region;
+  const bool kept_alone =
+      std::holds_alternative<SetNoise>(command) && !shown;  // fitted by the command itself
+  if (region_.empty() || kept_alone) return refit_open_region();
+  draft_ = std::move(shown);
+  refit();
 }
 
 void Workbench::focus(const std::string& id) {

@@ -9,6 +9,8 @@
 namespace patchlab::viewer {
 
 std::optional<SurfaceRequest> surface_of(Action action);
+std::optional<BoundaryRequest> boundary_of(Action action);
+std::optional<Reshaping> reshaping_of(Action action);
 std::optional<SelectMode> mode_of(Action action);
 std::optional<Tool> tool_of(Action action);
 std::optional<PointColours> colours_of(Action action);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "viewer/panel/colours.h"
+#include "viewer/platform/key.h"
 
 namespace patchlab::viewer {
 
@@ -121,6 +122,10 @@ bool begin_dialog(const Gui& gui, const char* name, ImVec2 size) {
 }
 
 void end_dialog() { ImGui::EndPopup(); }
+
+void close_on_escape() {
+  if (ImGui::IsKeyPressed(key::escape, false)) ImGui::CloseCurrentPopup();
+}
 
 void section(const Gui& gui, const char* title, std::string_view remark) {
   const float above = gui.px(14);

@@ -54,6 +54,9 @@ void end_panel();
 bool begin_dialog(const Gui& gui, const char* name, ImVec2 size);
 void end_dialog();
 
+// Closes the popup that is being drawn when Esc is pressed.
+void close_on_escape();
+
 // Title of a section in a side panel, with a remark at its right.
 void section(const Gui& gui, const char* title, std::string_view remark = {});
 // Wrapped text in a colour of the theme.

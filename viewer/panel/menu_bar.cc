@@ -16,10 +16,23 @@ void draw_item(const PanelInput& in, const ActionRow& item, Requests& out) {
   tooltip(in.gui, item.help);
 }
 
+void draw_earlier_work(const PanelInput& in, Requests& out) {
+  ImGui::Separator();
+  for (const EarlierWork& work : in.state.earlier) {
+    const std::string name = "Go on with " + work.scan;
+    ImGui::PushID(work.journal.c_str());
+    if (ImGui::MenuItem(name.c_str(), work.remark.c_str())) out.open = work.journal;
+    ImGui::PopID();
+    tooltip(in.gui, work.journal.string());
+  }
+}
+
 // Items that belong together are adjacent in the table; a line parts the groups of the longer menus.
 bool starts_group(Action action) {
   return action == Action::quit || action == Action::remove || action == Action::mode_set ||
-         action == Action::last_vertex || action == Action::robust || action == Action::keep ||
+         action == Action::last_vertex || action == Action::invert || action == Action::hide ||
+         action == Action::fit_elliptic || action == Action::bound_automatic ||
+         action == Action::visible_only || action == Action::robust || action == Action::keep ||
          action == Action::perspective || action == Action::colour_shading ||
          action == Action::larger_points || action == Action::show_surface || action == Action::theme;
 }
@@ -58,10 +71,12 @@ void draw_menu_bar(const PanelInput& in, Requests& out) {
       bool first = true;
       for (const ActionRow& item : action_table()) {
         if (item.menu != menu) continue;
+        if (item.action == Action::quit && !in.state.earlier.empty()) draw_earlier_work(in, out);
         if (!first && starts_group(item.action)) ImGui::Separator();
         draw_item(in, item, out);
         first = false;
       }
+      close_on_escape();
       ImGui::EndPopup();
     }
     ImGui::PopStyleVar();

@@ -99,11 +99,13 @@ struct ColourBar {
   const char* title;
   Rgba (*colour)(double t, const Theme& theme);
 };
+constexpr float bar_apart = 104;  // px, from one bar to the next
 
-void draw_colour_bar(const PanelInput& in, const ColourBar& bar, ImDrawList& draw) {
+// `place`: 0 is the first from the right.
+void draw_colour_bar(const PanelInput& in, const ColourBar& bar, int place, ImDrawList& draw) {
   const Gui& gui = in.gui;
   const float width = gui.px(12), height = std::min(gui.px(170), in.layout.view.height * 0.4f);
-  const ImVec2 at = {in.layout.view.right() - gui.px(30),
+  const ImVec2 at = {in.layout.view.right() - gui.px(30 + bar_apart * static_cast<float>(place)),
                      in.layout.view.y + (in.layout.view.height - height) / 2};
   float label_space = text_size(gui.fonts.small, bar.title).x - width;
   for (const std::string& label : bar.labels) {
@@ -125,23 +127,27 @@ void draw_colour_bar(const PanelInput& in, const ColourBar& bar, ImDrawList& dra
                   bar.title);
 }
 
+Rgba sequential_colour(double t, const Theme&) { return sequential(t); }
+Rgba diverging_colour(double t, const Theme& theme) { return diverging(2 * t - 1, theme.neutral_lightness); }
+
+// From `range.x()` to `range.y()`, with as many decimals as tell its ends apart.
+std::array<std::string, 3> bar_labels(const Eigen::Vector2d& range) {
+  const double largest = std::max(range.cwiseAbs().maxCoeff(), 1e-6);
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(largest))), 0, 4);
+  return {fixed(range.x(), decimals), fixed(range.mean(), decimals), fixed(range.y(), decimals)};
+}
+
 void draw_colour_bars(const PanelInput& in, ImDrawList& draw) {
   const SceneNotes& notes = in.state.notes;
+  int place = 0;
   if (notes.residual_colours) {
-    draw_colour_bar(
-        in,
-        {{"\u22123", "0", "3"},
-         "residual, σ",
-         [](double t, const Theme& theme) { return diverging(2 * t - 1, theme.neutral_lightness); }},
-        draw);
+    draw_colour_bar(in, {{"\u22123", "0", "3"}, "residual, σ", diverging_colour}, place++, draw);
   } else if (notes.height_sigma) {
-    const double low = notes.height_sigma->x() * 1e3, high = notes.height_sigma->y() * 1e3;
-    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(std::max(high, 1e-6)))), 0, 4);
-    draw_colour_bar(in,
-                    {{fixed(low, decimals), fixed((low + high) / 2, decimals), fixed(high, decimals)},
-                     "height σ, mm",
-                     [](double t, const Theme&) { return sequential(t); }},
+    draw_colour_bar(in, {bar_labels(*notes.height_sigma * 1e3), "height σ, mm", sequential_colour}, place++,
                     draw);
+  }
+  if (notes.point_heights) {
+    draw_colour_bar(in, {bar_labels(*notes.point_heights), "height, m", sequential_colour}, place++, draw);
   }
 }
 
@@ -181,7 +187,7 @@ void draw_badge(const PanelInput& in, ImDrawList& draw) {
       break;
   }
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (in.state.tool != Tool::lasso || !in.layout.view.contains(mouse.x, mouse.y)) return;
+  if (in.state.tool == Tool::orbit || !in.layout.view.contains(mouse.x, mouse.y)) return;
   draw_text(draw, in.gui.fonts.title, {mouse.x + in.gui.px(12), mouse.y + in.gui.px(6)}, in.gui.theme.text,
             badge);
 }

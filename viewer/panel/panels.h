@@ -17,6 +17,8 @@ struct PanelMemory {
   FileDialog files;
   bool help = false;
   std::string help_filter;
+  bool choose_noise = false;  // opens the list of noise models
+  std::string noise_specification;
 };
 
 struct PanelInput {
@@ -32,7 +34,7 @@ void draw_panels(const PanelInput& in, PanelMemory& memory, Requests& out);
 void draw_menu_bar(const PanelInput& in, Requests& out);
 void draw_tool_bar(const PanelInput& in, Requests& out);
 void draw_tree(const PanelInput& in, PanelMemory& memory, Requests& out);
-void draw_inspector(const PanelInput& in, Requests& out);
+void draw_inspector(const PanelInput& in, PanelMemory& memory, Requests& out);
 void draw_status_bar(const PanelInput& in, Requests& out);
 void draw_overlay(const PanelInput& in);  // over the scene: notes, pill, scale bar, colour bar, contour
 void draw_help_sheet(const PanelInput& in, PanelMemory& memory);
@@ -40,6 +42,7 @@ void draw_toasts(const PanelInput& in);
 
 // Parts of the inspector.
 void draw_verdict(const Gui& gui, const FitReport& report);
+void draw_noise(const Gui& gui, const ScanEntry& scan, PanelMemory& memory, Requests& out);
 void draw_parameters(const Gui& gui, const Patch& patch);
 void draw_correlation(const Gui& gui, const Patch& patch);
 void draw_residuals(const Gui& gui, const FitReport& report);
@@ -49,8 +52,9 @@ void draw_candidates(const Gui& gui, const FitReport& report, SurfaceType shown,
 // What a fit is blamed for and what it is warned of, each once: reasons first. Remarks about the frame that
 // the parameters are given in stand beside the correlations.
 std::vector<std::string> sentences_of(const FitReport& report);
-std::string surface_words(SurfaceType surface);        // "elliptic paraboloid"
-std::string short_surface_words(SurfaceType surface);  // "ell. paraboloid"
+std::string choice_words(const std::vector<Candidate>& candidates);  // why the chosen surface was chosen
+std::string surface_words(SurfaceType surface);                      // "elliptic paraboloid"
+std::string short_surface_words(SurfaceType surface);                // "ell. paraboloid"
 std::string boundary_words(BoundaryType boundary);
 std::string noise_words(const NoiseModel& model);  // "kinect1 (assumed)"
 

@@ -17,19 +17,28 @@ std::string hint(const ViewState& state) {
   if (state.tool == Tool::lasso) {
     return "Lasso: drag to draw, click for corners  ·  Shift adds, Ctrl subtracts  ·  right drag turns";
   }
+  if (state.tool == Tool::rectangle) {
+    return "Rectangle: drag from corner to corner  ·  Shift adds, Ctrl subtracts  ·  right drag turns";
+  }
+  if (state.tool == Tool::surface) {
+    return "Smooth surface: click a point of it  ·  Shift adds, Ctrl subtracts  ·  right drag turns";
+  }
   return "Drag turns, middle drag moves, wheel zooms, double click sets the pivot  ·  L draws a lasso  ·  F1 help";
 }
 
-std::size_t selected_count(const PanelInput& in) {
+std::string selected_words(const PanelInput& in) {
   const PatchEntry* patch = find_patch(in.document, in.state.selected);
   const RegionEntry* region = find_region(in.document, patch ? patch->region : in.state.selected);
-  return region && region->points ? region->points->size() : 0;
+  if (!region || !region->points || region->points->empty()) return {};
+  const std::string words = count(region->points->size()) + " selected";
+  if (region->hidden_left_out == 0) return words;
+  return words + " (" + count(region->hidden_left_out) + " hidden left out)";
 }
 
 std::string facts(const PanelInput& in) {
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "  ·  ") + part; };
-  if (const std::size_t selected = selected_count(in)) add(count(selected) + " points selected");
+  if (const std::string selected = selected_words(in); !selected.empty()) add(selected);
   if (in.state.currency == Currency::current && in.state.fit_milliseconds > 0) {
     add("fit " + significant(in.state.fit_milliseconds, 2) + " ms");
   }

@@ -11,11 +11,15 @@ struct ToolButton {
   const char* text;
   const char* key;  // shown beside it; the modifier of a mode
 };
-constexpr ToolButton kTools[] = {{Action::orbit_tool, "Orbit", "O"}, {Action::lasso_tool, "Lasso", "L"}};
+constexpr ToolButton kTools[] = {{Action::orbit_tool, "Orbit", "O"},
+                                 {Action::lasso_tool, "Lasso", "L"},
+                                 {Action::rectangle_tool, "Rect", "M"},
+                                 {Action::surface_tool, "Surface", "G"}};
 constexpr ToolButton kModes[] = {{Action::mode_set, "Set", ""},
                                  {Action::mode_add, "Add", "Shift"},
                                  {Action::mode_subtract, "Sub", "Ctrl"},
                                  {Action::mode_intersect, "Int", "both"}};
+constexpr ToolButton kBasis[] = {{Action::visible_only, "Visible only", "X"}};
 constexpr ToolButton kSurfaces[] = {{Action::fit_automatic, "Auto", "0"},
                                     {Action::fit_paraboloid, "Paraboloid", "1"},
                                     {Action::fit_plane, "Plane", "2"},
@@ -64,11 +68,14 @@ void draw_tool_bar(const PanelInput& in, Requests& out) {
   const Gui& gui = in.gui;
   begin_panel("tools", in.layout.tools, gui.theme.bar, {gui.px(12), gui.px(8)});
   const float needed = group_width(gui, kTools, true) + group_width(gui, kModes, true) +
-                       group_width(gui, kSurfaces, true) + group_width(gui, kRobust, true);
+                       group_width(gui, kBasis, true) + group_width(gui, kSurfaces, true) +
+                       group_width(gui, kRobust, true);
   const bool keys = needed <= in.layout.tools.width;
   draw_group(in, kTools, keys, out);
   draw_divider(gui);
   draw_group(in, kModes, keys, out);
+  draw_divider(gui);
+  draw_group(in, kBasis, keys, out);
   draw_divider(gui);
   draw_group(in, kSurfaces, keys, out);
   draw_divider(gui);

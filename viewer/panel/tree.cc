@@ -78,6 +78,7 @@ void draw_row_menu(const PanelInput& in, const Row& row, PanelMemory& memory, Re
     }
     if (ImGui::MenuItem("Frame", "F")) out.actions.push_back(Action::frame_selection);
     if (ImGui::MenuItem("Delete", "Delete", false, !row.draft)) out.commands.push_back(Delete{row.id});
+    close_on_escape();
     ImGui::EndPopup();
   }
   ImGui::PopStyleVar();

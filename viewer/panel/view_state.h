@@ -16,14 +16,14 @@
 
 namespace patchlab::viewer {
 
-enum class Tool { orbit, lasso };
-enum class PointColours { shading, photo, residual };
+enum class Tool { orbit, lasso, rectangle, surface };
+enum class PointColours { shading, photo, height, label, residual };
 
 // Whether the patch on the screen is the fit of what is selected now.
 enum class Currency { nothing, fitting, current, failed };
 
 struct Layers {
-  bool surface = true, ellipsoid = true, cone = true, band = true, axes = true;
+  bool surface = true, ellipsoid = true, cone = true, band = true, axes = true, offsets = false;
   bool operator==(const Layers&) const = default;
 };
 
@@ -38,7 +38,8 @@ struct SceneNotes {
   std::vector<Label> labels;                    // of axes
   std::optional<Eigen::Vector2d> height_sigma;  // least and largest on the surface, m: the colour bar
   bool residual_colours = false;
-  double metres_per_pixel = 0.0;  // at the pivot
+  std::optional<Eigen::Vector2d> point_heights;  // where the colours of the points end, m
+  double metres_per_pixel = 0.0;                 // at the pivot
 };
 
 struct Toast {
@@ -52,11 +53,20 @@ struct Busy {
   double fraction = 0.0;
 };
 
+// Work of an earlier time that can be gone on with.
+struct EarlierWork {
+  std::filesystem::path journal;
+  std::string scan;    // "bench"
+  std::string remark;  // "12 steps, 2 Jan 14:02"
+};
+
 struct ViewState {
   ThemeChoice theme = ThemeChoice::dark;
   Tool tool = Tool::orbit;
   SelectMode mode = SelectMode::set;
+  bool visible_only = true;  // a contour leaves out what other points hide
   SurfaceRequest surface = SurfaceRequest::automatic;
+  BoundaryRequest boundary = BoundaryRequest::automatic;
   bool robust = true;
   bool perspective = true;
   PointColours colours = PointColours::shading;
@@ -77,8 +87,9 @@ struct ViewState {
   std::vector<std::string> history;
   std::size_t position = 0;  // how much of the history stands
   bool can_undo = false, can_redo = false;
-  std::string saved;    // "saved 14:02:11"
-  std::string journal;  // its path, with ~ for the home folder
+  std::string saved;                 // "saved 14:02:11"
+  std::string journal;               // its path, with ~ for the home folder
+  std::vector<EarlierWork> earlier;  // newest first
   std::optional<Busy> busy;
   std::vector<Toast> toasts;
   SceneNotes notes;
@@ -94,6 +105,7 @@ struct Requests {
   std::vector<Command> commands;  // rename, delete, show
   std::optional<std::string> select;
   std::optional<SurfaceRequest> surface;
+  std::optional<SetNoise> noise;
   std::optional<std::size_t> history_position;
   std::optional<std::filesystem::path> open;
   std::optional<std::filesystem::path> save_journal;

@@ -34,7 +34,9 @@ Eigen::Vector3d unproject(const ViewCamera& camera, const Eigen::Vector2d& pixel
   return through.origin + through.direction * ((depth - start) / slope);
 }
 
-LassoTool::Outcome LassoTool::press(const Eigen::Vector2d& pixel, SelectMode mode, const LassoView& view) {
+LassoTool::Outcome LassoTool::press(const Eigen::Vector2d& pixel, SelectMode mode, const LassoView& view,
+                                    ContourShape shape) {
+  if (!drawing()) shape_ = shape;
   if (vertices_.size() >= least_vertices && near_start(pixel, view)) return close();
   if (!drawing()) mode_ = mode;
   started_by_drag_ = !drawing();
@@ -52,6 +54,10 @@ LassoTool::Outcome LassoTool::move(const Eigen::Vector2d& pixel, const LassoView
   }
   freehand_ = freehand_ || (pixel - *pressed_at_).norm() > drag_threshold * view.scale;
   if (!freehand_) return Outcome::none;
+  if (shape_ == ContourShape::rectangle) {
+    span_rectangle(pixel, view);
+    return Outcome::changed;
+  }
   const std::optional<Eigen::Vector2d> last = pixel_of(view.camera, vertices_.back());
   if (last && (pixel - *last).norm() < sample_distance * view.scale) return Outcome::none;
   append(pixel, view);
@@ -61,6 +67,7 @@ LassoTool::Outcome LassoTool::move(const Eigen::Vector2d& pixel, const LassoView
 LassoTool::Outcome LassoTool::release(const Eigen::Vector2d& pixel, const LassoView& view) {
   if (!dragging()) return Outcome::none;
   pressed_at_.reset();
+  if (shape_ == ContourShape::rectangle) return freehand_ ? close() : escape();
   if (!freehand_) return Outcome::none;
   if (!started_by_drag_ && !near_start(pixel, view)) return Outcome::changed;
   return close();
@@ -89,6 +96,15 @@ LassoTool::Outcome LassoTool::close() {
   pointer_.reset();
   pressed_at_.reset();
   return Outcome::closed;
+}
+
+void LassoTool::span_rectangle(const Eigen::Vector2d& pixel, const LassoView& view) {
+  vertices_.clear();
+  const Eigen::Vector2d& from = *pressed_at_;
+  for (const Eigen::Vector2d& corner :
+       {from, Eigen::Vector2d(pixel.x(), from.y()), pixel, Eigen::Vector2d(from.x(), pixel.y())}) {
+    append(corner, view);
+  }
 }
 
 void LassoTool::append(const Eigen::Vector2d& pixel, const LassoView& view) {

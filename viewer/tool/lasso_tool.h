@@ -3,6 +3,7 @@
 //
 //   drag         freehand; the release closes the contour
 //   clicks       vertices; a double click, Enter or a click near the start closes it
+//   rectangle    a shape of its own: a drag from corner to corner, nothing else
 //   Backspace    takes the last vertex back;  Esc drops the contour
 //
 // The contour is anchored in the world: each vertex is kept as the point where the ray through its pixel
@@ -30,6 +31,8 @@ struct Modifiers {
   bool shift = false, ctrl = false, alt = false;
 };
 
+enum class ContourShape { freehand, rectangle };
+
 // Shift adds, Ctrl subtracts, both intersect; `otherwise` is what the tool bar says.
 SelectMode mode_of(const Modifiers& modifiers, SelectMode otherwise);
 
@@ -48,7 +51,8 @@ class LassoTool {
   static constexpr double sample_distance = 3.0;  // px between freehand vertices
   static constexpr double close_distance = 10.0;  // px around the start
 
-  Outcome press(const Eigen::Vector2d& pixel, SelectMode mode, const LassoView& view);
+  Outcome press(const Eigen::Vector2d& pixel, SelectMode mode, const LassoView& view,
+                ContourShape shape = ContourShape::freehand);
   Outcome move(const Eigen::Vector2d& pixel, const LassoView& view);
   Outcome release(const Eigen::Vector2d& pixel, const LassoView& view);
   Outcome double_click();  // in place of the second press
@@ -67,6 +71,7 @@ class LassoTool {
 
  private:
   Outcome close();
+  void span_rectangle(const Eigen::Vector2d& pixel, const LassoView& view);
   void append(const Eigen::Vector2d& pixel, const LassoView& view);
 
   std::vector<Eigen::Vector3d> vertices_;      // world
@@ -75,6 +80,7 @@ class LassoTool {
   bool freehand_ = false;                      // the press has become a drag
   bool started_by_drag_ = false;               // no vertex was clicked before
   SelectMode mode_ = SelectMode::set;
+  ContourShape shape_ = ContourShape::freehand;
 };
 
 }  // namespace patchlab::viewer

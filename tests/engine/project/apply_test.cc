@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/base/file.h"
 #include "tests/engine/project/scan_folder.h"
 
@@ -89,16 +91,71 @@ TEST_F(Apply, SortsTheIndicesOfARegion) {
   EXPECT_THAT(*find_region(after({open_boxes(), select}), "region-1")->points, testing::ElementsAre(1, 3, 9));
 }
 
-TEST_F(Apply, RefusesIndicesBeyondTheScanLabelsThatAreNotThereAndHiddenPointRemoval) {
+TEST_F(Apply, RefusesIndicesBeyondTheScanAndLabelsThatAreNotThere) {
   const Document document = after({open_boxes()});
   Select beyond{.region = "region-1", .scan = "scan-1"};
   beyond.indices = std::vector<std::uint32_t>{0, 301};
   EXPECT_THAT(refused(document, beyond).message,
               HasSubstr("point 301 (counted from 0), but boxes.pcd has only 301"));
   EXPECT_EQ(refused(document, select_label("region-1", 9)).code, ErrorCode::no_finite_fit);
+}
+
+TEST_F(Apply, LeavesNothingOutWhereNothingIsHidden) {
   Select visible = lasso_left("region-1");
   visible.visible_only = true;
-  EXPECT_THAT(refused(document, visible).message, HasSubstr("visible points only is not supported"));
+  EXPECT_EQ(*find_region(after({open_boxes(), visible}), "region-1")->points,
+            *find_region(after({open_boxes(), lasso_left("region-1")}), "region-1")->points)
+      << "nothing hides the plate";
+}
+
+TEST_F(Apply, LeavesASheetBehindASheetOutOfALassoOnVisiblePoints) {
+  std::string table = "x,y,z\n";
+  for (const char* depth : {"1.0", "1.2"}) {
+    for (int i = 0; i < 900; ++i) {
+      table += std::to_string(0.005 * (i % 30)) + "," + std::to_string(0.005 * (i / 30)) + "," + depth + "\n";
+    }
+  }
+  write("sheets.csv", table);
+  Select lasso = lasso_left("region-1");
+  lasso.visible_only = true;
+  lasso.polygon = {{0, 0}, {1280, 0}, {1280, 800}, {0, 800}};
+  const OpenScan open{.id = "scan-1", .file = "sheets.csv", .noise = "isotropic:0.001"};
+  const Document document = after({open, lasso});
+  const RegionEntry& region = *find_region(document, "region-1");
+  EXPECT_EQ(region.points->size(), 900u);
+  EXPECT_EQ(region.points->back(), 899u);
+  EXPECT_EQ(region.hidden_left_out, 900u);
+
+  lasso.visible_only = false;
+  const Document through = after({open, lasso});
+  EXPECT_EQ(find_region(through, "region-1")->points->size(), 1800u);
+  EXPECT_EQ(find_region(through, "region-1")->hidden_left_out, 0u);
+}
+
+TEST_F(Apply, ReshapesARegion) {
+  const auto size_after = [&](Reshaping how, int steps = 1) {
+    return find_region(after({open_boxes(), select_label("region-1", 7), Reshape{"region-1", how, steps}}),
+                       "region-1")
+        ->points->size();
+  };
+  EXPECT_EQ(size_after(Reshaping::invert), 150u);
+  EXPECT_GE(size_after(Reshaping::grow, 2), size_after(Reshaping::grow));
+  EXPECT_LE(size_after(Reshaping::shrink, 2), size_after(Reshaping::shrink));
+  EXPECT_GE(size_after(Reshaping::linked), 150u);
+  EXPECT_THAT(refused(after({open_boxes()}), Reshape{"region-1", Reshaping::grow, 1}).message,
+              HasSubstr("no region 'region-1'"));
+}
+
+TEST_F(Apply, FloodsTheSurfaceThatWasPointedAt) {
+  const Document document = after({open_boxes(), select_label("region-1", 7)});
+  const Scan& scan = *document.scans[0].scan;
+  Select surface{.region = "region-2", .scan = "scan-1"};
+  surface.flood = scan.point(find_region(document, "region-1")->points->at(70));
+  const std::vector<std::uint32_t> flooded = *find_region(after({open_boxes(), surface}), "region-2")->points;
+  EXPECT_GE(flooded.size(), 150u);
+  for (const std::uint32_t id : *find_region(document, "region-1")->points) {
+    EXPECT_TRUE(std::ranges::binary_search(flooded, id)) << id;
+  }
 }
 
 TEST_F(Apply, FitsAndRecordsTheHashOfTheResult) {

@@ -57,6 +57,8 @@ TEST(CommandJson, KeepsEveryMemberThereAndBack) {
   label.label = 50;
   Select indices{.region = "region-5", .scan = "scan-2", .mode = SelectMode::subtract};
   indices.indices = std::vector<std::uint32_t>{4, 7, 4294967295u};
+  Select flood{.region = "region-6", .scan = "scan-2"};
+  flood.flood = Eigen::Vector3d(0.1, -2.0, 1.0 / 3.0);
   Fit fit{"patch-1", "region-3", {}, "00ff"};
   fit.options.surface = SurfaceRequest::plane;
   fit.options.boundary = BoundaryRequest::convex_quad;
@@ -71,6 +73,9 @@ TEST(CommandJson, KeepsEveryMemberThereAndBack) {
                                          lasso,
                                          label,
                                          indices,
+                                         flood,
+                                         Reshape{"region-3", Reshaping::shrink, 4},
+                                         Reshape{"region-3", Reshaping::linked},
                                          fit,
                                          Rename{"patch-1", "φ"},
                                          Delete{"region-4"},
@@ -116,9 +121,14 @@ TEST(CommandJson, NamesTheMemberThatIsWrong) {
       {R"({"do":"open_scan","id":"scan-1","file":"a.pcd","viewpoint":[0,1]})",
        "open_scan.viewpoint has 2 entries"},
       {R"({"do":"select","region":"r","scan":"s"})",
-       "select needs one of the members polygon, label and indices"},
+       "select needs one of the members polygon, flood, label and indices"},
       {R"({"do":"select","region":"r","scan":"s","label":3,"indices":[1]})",
        "select needs one of the members"},
+      {R"({"do":"select","region":"r","scan":"s","label":3,"flood":[0,0,1]})",
+       "select needs one of the members"},
+      {R"({"do":"reshape","region":"r"})", "reshape lacks the member \"how\""},
+      {R"({"do":"reshape","region":"r","how":"melt"})", "reshape.how 'melt' is not known"},
+      {R"({"do":"reshape","region":"r","how":"grow","steps":0})", "reshape.steps must be at least 1"},
       {R"({"do":"select","region":"r","scan":"s","label":-3})", "select.label is -3 where a whole number"},
       {R"({"do":"select","region":"r","scan":"s","indices":[1,2.5]})",
        "select.indices[1] is 2.5 where a whole"},

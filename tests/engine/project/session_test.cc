@@ -2,14 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <fstream>
 #include <limits>
 
 #include "engine/base/random.h"
 #include "tests/engine/project/scan_folder.h"
+#include "tests/support/file_size_limit.h"
 
 namespace patchlab {
 namespace {
@@ -214,31 +213,12 @@ TEST_F(SessionTest, LeavesAJournalThatCannotBeReplayedAsItIs) {
   EXPECT_EQ(text("bad.patchlab"), journal);
 }
 
-// The size of files this process may write: beyond it a write stops half way, as on a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limited{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limited);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
-
 TEST_F(SessionTest, ChangesNeitherDocumentNorFileWhenTheDiskIsFull) {
   Session session = opened();
   run(session, open_boxes());
   const std::string before = text("work.patchlab");
   for (const rlim_t room : {1u, 10u, 20u}) {
-    const FileSizeLimit limit(before.size() + room);
+    const test::FileSizeLimit limit(before.size() + room);
     const Result<void> done = session.run(Rename{"scan-1", "a name that does not fit into what is left"});
     ASSERT_FALSE(done.ok());
     EXPECT_EQ(done.error().code, ErrorCode::unwritable);

@@ -1,8 +1,10 @@
 // The whole program without a display: real panels, real input, real pixels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <set>
+#include <thread>
 
 #include "engine/patch/patch.h"
 #include "tests/viewer/app/ball_scan.h"
@@ -152,6 +154,50 @@ TEST_P(ProgramTest, NavigationDuringALassoKeepsTheContour) {
   EXPECT_EQ(program_.app().workbench().session().document().regions.size(), 1u);
 }
 
+TEST_P(ProgramTest, ARectangleSelectsAndTheBasisIsStated) {
+  program_.play("click tools/Rect\ndrag " + program_.at(-0.045, -0.045) + program_.at(0.02, 0.01) +
+                program_.at(0.045, 0.045) + "\nwait\n");
+  const auto command_line = [this] {
+    return as_text(*read_file(program_.app().workbench().session().journal()))
+        .ends_with("\"visible_only\":true}\n");
+  };
+  ASSERT_EQ(program_.document().regions.size(), 1u);
+  EXPECT_TRUE(command_line());
+  program_.play("key X\ndrag " + program_.at(-0.02, -0.04) + program_.at(0.02, 0.01) +
+                program_.at(0.04, 0.04) + "\nwait\n");
+  EXPECT_FALSE(program_.app().state().visible_only);
+  EXPECT_FALSE(command_line());
+}
+
+TEST_P(ProgramTest, OneClickOnASurfaceMakesAPatch) {
+  program_.play("key G\nkey 3\nclick " + program_.at(0.01, 0.01) + "\nwait\nkey Enter\nwait\n");
+  ASSERT_EQ(program_.document().patches.size(), 1u);
+  EXPECT_NEAR(1 / std::abs(curvatures(program_.document().patches[0].fit->patch)[0]), ball_radius, 0.005);
+  program_.play("key =\nwait\nkey -\nwait\nkey Enter\nwait\nkey H\nwait\n");
+  EXPECT_FALSE(program_.document().patches.at(0).visible && program_.document().regions.at(0).visible);
+  program_.play("key Shift+H\nwait\nkey S\nwait\n");
+  EXPECT_TRUE(program_.document().patches.at(0).visible && program_.document().regions.at(0).visible);
+  EXPECT_TRUE(program_.app().errors().empty());
+  program_.picture("program_surface_" + std::to_string(static_cast<int>(GetParam().scale)));
+}
+
+TEST_P(ProgramTest, AnotherNoiseModelIsChosenFromTheListWhileTheFitFollows) {
+  program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nwait\nkey Enter\nwait\n");
+  const auto noise = [this] { return program_.document().scans.at(0).noise.specification; };
+  program_.play("key N\nclick noise/isotropic, 5 mm\nwait\n");
+  EXPECT_EQ(noise(), "isotropic:0.005");
+  EXPECT_TRUE(program_.app().widgets().contains("noise/kinect2")) << "the list stays";
+  program_.picture("program_noise_" + std::to_string(static_cast<int>(GetParam().scale)));
+  program_.play(
+      "click noise/specification\ntype stereo:f=525,baseline=0.075,pointing=0.35,disparity=0.5\n"
+      "key Enter\nwait\nkey Esc\n");
+  EXPECT_TRUE(noise().ends_with("disparity=0.5")) << noise();
+  EXPECT_FALSE(program_.app().widgets().contains("noise/kinect2"));
+  program_.play("key Ctrl+Z\nkey Ctrl+Z\nwait\n");
+  EXPECT_EQ(noise(), "kinect1");
+  EXPECT_TRUE(program_.app().errors().empty());
+}
+
 TEST_P(ProgramTest, UndoAndRedoByKey) {
   program_.play("key L\n" + program_.draw_circle(well_inside) + "wait\nkey 3\nkey Enter\nwait\n");
   program_.play("key Ctrl+Z\nkey Ctrl+Z\nwait\n");
@@ -233,6 +279,36 @@ TEST(EmptyProgram, GreetsAndOffersToOpenAScan) {
   EXPECT_EQ(program.app().state().toasts.size(), 1u);
   EXPECT_TRUE(program.app().errors().empty());
   program.picture("program_empty");
+}
+
+TEST(EmptyProgram, OffersToGoOnWithEarlierWork) {
+  const TestFolder folder;
+  const std::filesystem::path state = folder.path() / "state";
+  const auto work = [&folder, &state] {
+    Workbench bench({state, true}, [] {});
+    bench.open(folder.ball());
+    bench.run(Rename{"scan-1", "the ball"});
+    while (!bench.idle()) {
+      bench.deliver();
+      std::this_thread::yield();
+    }
+    return bench.take_notices();
+  };
+  const auto told = [](const std::vector<std::string>& notices) {
+    return std::any_of(notices.begin(), notices.end(), [](const std::string& notice) {
+      return notice.starts_with("There is earlier work on ball (2 steps");
+    });
+  };
+  EXPECT_FALSE(told(work()));
+  EXPECT_TRUE(told(work()));
+  Program program(state, {1.0f, ThemeChoice::dark});
+  program.settle();
+  ASSERT_EQ(program.app().state().earlier.size(), 2u);
+  program.picture("program_earlier");
+  program.play("click earlier/ball\nwait\n");
+  ASSERT_EQ(program.document().scans.size(), 1u);
+  EXPECT_EQ(program.document().scans[0].name, "the ball");
+  EXPECT_EQ(program.app().state().earlier.size(), 1u) << "what is open is not offered";
 }
 
 }  // namespace

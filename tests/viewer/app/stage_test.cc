@@ -118,7 +118,7 @@ TEST_F(StageTest, TheChosenPatchSaysWithWhatProbabilityAndHowMuchLarger) {
   state.selected = "patch-1";
   update();
   const SceneNotes notes = stage.notes(view_camera(stage.camera, 800, 600));
-  ASSERT_EQ(notes.lines.size(), 2u);
+  ASSERT_EQ(notes.lines.size(), 3u);
   EXPECT_EQ(notes.lines[0], "95 % ellipsoid of the centre, drawn 20 times larger");
   EXPECT_NE(notes.lines[1].find("95 % cone of the normal"), std::string::npos);
   ASSERT_TRUE(notes.height_sigma);
@@ -206,6 +206,34 @@ TEST(PointShades, OfAPixelGridShowWhichWayASurfaceFaces) {
   const std::vector<std::uint8_t> shades = point_shades(*roof);
   // The light stands to the left of the sensor: the left side of the roof is the brighter one.
   EXPECT_GT(shades[10 * 40 + 8], shades[10 * 40 + 32] + 20);
+}
+
+TEST_F(StageTest, PointsAreColouredByTheirHeightAlongTheAxisOfTheTurntable) {
+  stage.camera.up = Eigen::Vector3d::UnitX();
+  document.regions.clear();
+  state.colours = PointColours::height;
+  update();
+  EXPECT_EQ(colour(0), to_bytes(sequential(0.0)));
+  EXPECT_EQ(colour(3), to_bytes(sequential(1.0)));
+  const std::optional<Eigen::Vector2d> ends = stage.notes(ViewCamera{}).point_heights;
+  ASSERT_TRUE(ends);
+  EXPECT_NEAR(ends->x(), 0.0, 1e-6);
+  EXPECT_NEAR(ends->y(), 0.3, 1e-6);
+}
+
+TEST_F(StageTest, PointsAreColouredByTheirLabelsAndPlainWhereThereIsNone) {
+  auto scan = std::make_shared<Scan>(*document.scans[0].scan);
+  scan->labels = {0, 7, 7, 2};
+  document.scans[0].scan = scan;
+  document.regions.clear();
+  update();
+  const Rgba8 plain = colour(0);
+  state.colours = PointColours::label;
+  update();
+  EXPECT_EQ(colour(0), plain);
+  EXPECT_EQ(colour(1), to_bytes(category_colour("label-7")));
+  EXPECT_EQ(colour(1), colour(2));
+  EXPECT_NE(colour(1), colour(3));
 }
 
 }  // namespace

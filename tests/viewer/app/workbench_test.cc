@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "engine/patch/patch.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/viewer/app/ball_scan.h"
 #include "viewer/app/journal_file.h"
 #include "viewer/camera/orbit_camera.h"
@@ -121,6 +122,143 @@ TEST_F(WorkbenchTest, AddAndSubtractChangeTheRegionInFocus) {
   finish();
   EXPECT_EQ(kept().regions[0].points->size(), whole);
   EXPECT_EQ(kept().regions.size(), 1u);
+}
+
+TEST_F(WorkbenchTest, AContourOnVisiblePointsLeavesTheHiddenOnesOutAndSaysHowMany) {
+  Stroke behind = square(10);
+  // From the side, the ball hides wall that the sensor saw beside it.
+  OrbitCamera camera = from_sensor({}, 0.8, 2 * std::atan(120 / 262.5));
+  camera.orbit(0.7, 0.0);
+  behind.camera = view_camera(camera, 320, 240);
+  bench_.select(behind);
+  finish();
+  const std::size_t through = kept().regions.at(0).points->size();
+  behind.visible_only = true;
+  bench_.select(behind);
+  finish();
+  const RegionEntry region = kept().regions.at(0);
+  EXPECT_LT(region.points->size(), through);
+  EXPECT_EQ(region.points->size() + region.hidden_left_out, through);
+  EXPECT_EQ(replay(bench_.session().journal())->regions.at(0).hidden_left_out, region.hidden_left_out);
+}
+
+TEST_F(WorkbenchTest, AClickTakesTheSurfaceAndItsPatchIsFitted) {
+  Stroke click;
+  click.surface_at = ball_centre - Eigen::Vector3d(0, 0, ball_radius);
+  click.scan = "scan-1";
+  bench_.select(click);
+  finish();
+  ASSERT_EQ(kept().regions.size(), 1u);
+  EXPECT_GT(kept().regions[0].points->size(), 300u);
+  EXPECT_EQ(bench_.draft_patch(), "patch-1");
+  const Scan& scan = *kept().scans[0].scan;
+  std::size_t off = 0;
+  for (const std::uint32_t id : *kept().regions[0].points)
+    off += (scan.point(id) - ball_centre).norm() > 0.09;
+  EXPECT_EQ(off, 0u) << "points of the wall";
+}
+
+TEST_F(WorkbenchTest, ARegionIsReshapedAsAStepThatCanBeUndone) {
+  bench_.select(square(13));
+  finish();
+  const auto points = [this] { return kept().regions.at(0).points->size(); };
+  const std::size_t before = points();
+  bench_.reshape(Reshaping::grow);
+  finish();
+  const std::size_t grown = points();
+  EXPECT_GT(grown, before);
+  EXPECT_EQ(bench_.draft_patch(), "patch-1") << "the fit follows";
+  bench_.reshape(Reshaping::shrink);
+  finish();
+  EXPECT_LT(points(), grown);
+  for (int i = 0; i < 2; ++i) bench_.undo();
+  finish();
+  EXPECT_EQ(points(), before);
+  const Result<Document> replayed = replay(bench_.session().journal());
+  ASSERT_TRUE(replayed) << replayed.error().message;
+  EXPECT_EQ(replayed->regions.at(0).points->size(), before);
+}
+
+TEST_F(WorkbenchTest, ReshapingNothingIsTold) {
+  bench_.take_notices();
+  bench_.reshape(Reshaping::grow);
+  finish();
+  EXPECT_EQ(bench_.take_notices().size(), 1u);
+  EXPECT_EQ(bench_.session().history().size(), 1u);
+}
+
+TEST_F(WorkbenchTest, AnotherNoiseModelRefitsWhatIsKeptAndWhatIsNot) {
+  const auto sigma = [](const Document& document) {
+    return std::sqrt((*document.patches.at(0).fit->patch.covariance_local)(1, 1));
+  };
+  bench_.select(square(13));
+  finish();
+  const double before = sigma(bench_.document());
+  bench_.set_noise("scan-1", "isotropic:0.005");
+  finish();
+  EXPECT_GT(sigma(bench_.document()), 1.5 * before);
+  EXPECT_EQ(bench_.draft_patch(), "patch-1");
+  bench_.keep();
+  bench_.set_noise("scan-1", "kinect1");
+  finish();
+  EXPECT_TRUE(bench_.draft_patch().empty());
+  EXPECT_DOUBLE_EQ(sigma(kept()), before);
+  EXPECT_DOUBLE_EQ(sigma(*replay(bench_.session().journal())), before);
+  bench_.undo();
+  finish();
+  EXPECT_GT(sigma(kept()), 1.5 * before);
+}
+
+TEST_F(WorkbenchTest, AWrongNoiseModelIsToldAndChangesNothing) {
+  bench_.set_noise("scan-1", "isotropic:much");
+  finish();
+  ASSERT_EQ(errors_.size(), 1u);
+  EXPECT_EQ(bench_.session().history().size(), 1u);
+  EXPECT_EQ(bench_.currency(), Currency::nothing);
+}
+
+TEST_F(WorkbenchTest, NothingIsSelectedFromAScanThatIsHidden) {
+  bench_.run(Show{"scan-1", false});
+  bench_.take_notices();
+  bench_.preview(square(13));
+  bench_.select(square(13));
+  finish();
+  EXPECT_TRUE(bench_.document().regions.empty());
+  EXPECT_EQ(bench_.take_notices().size(), 1u);
+}
+
+TEST_F(WorkbenchTest, AJournalThatIsOpenInAnotherProgramIsToldAndLeftAlone) {
+  Workbench other{{folder_.path() / "state", true}, [] {}};
+  other.open(bench_.session().journal());
+  while (!other.idle()) {
+    other.deliver();
+    std::this_thread::yield();
+  }
+  const std::vector<Error> errors = other.take_errors();
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NE(errors[0].message.find("is open in another patchlab"), std::string::npos) << errors[0].message;
+  EXPECT_TRUE(other.document().scans.empty());
+}
+
+TEST_F(WorkbenchTest, AFullDiskIsToldAtOnceAndNothingIsShownAsDone) {
+  bench_.select(square(13));
+  finish();
+  const std::vector<std::uint32_t> before = *kept().regions.at(0).points;
+  {
+    const test::FileSizeLimit limit(std::filesystem::file_size(bench_.session().journal()) + 10);
+    bench_.select(square(8));
+    finish();
+    bench_.keep();
+    finish();
+  }
+  ASSERT_EQ(errors_.size(), 2u);
+  EXPECT_NE(errors_[0].find("the last action was not done"), std::string::npos) << errors_[0];
+  EXPECT_EQ(*kept().regions.at(0).points, before);
+  EXPECT_TRUE(kept().patches.empty());
+  EXPECT_EQ(bench_.currency(), Currency::current);
+  bench_.keep();
+  finish();
+  EXPECT_EQ(replay(bench_.session().journal())->patches.size(), 1u) << "there is room again";
 }
 
 TEST_F(WorkbenchTest, TakingAwayFromNothingIsToldAndChangesNothing) {

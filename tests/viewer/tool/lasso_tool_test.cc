@@ -183,5 +183,41 @@ TEST(Unproject, IsTheInverseOfProject) {
   }
 }
 
+TEST(RectangleTool, SpansFromCornerToCornerWhicheverWayItIsDragged) {
+  LassoView view;
+  view.camera.viewport = {800, 600};
+  LassoTool tool;
+  EXPECT_EQ(tool.press({300, 200}, SelectMode::add, view, ContourShape::rectangle),
+            LassoTool::Outcome::changed);
+  EXPECT_EQ(tool.move({250, 320}, view), LassoTool::Outcome::changed);
+  EXPECT_EQ(tool.move({100, 350}, view), LassoTool::Outcome::changed);
+  EXPECT_EQ(tool.release({100, 350}, view), LassoTool::Outcome::closed);
+  EXPECT_EQ(tool.mode(), SelectMode::add);
+  const std::vector<Eigen::Vector2d> contour = tool.contour(view.camera);
+  ASSERT_EQ(contour.size(), 4u);
+  EXPECT_LT((contour[0] - Eigen::Vector2d(300, 200)).norm(), 0.01);
+  EXPECT_LT((contour[1] - Eigen::Vector2d(100, 200)).norm(), 0.01);
+  EXPECT_LT((contour[2] - Eigen::Vector2d(100, 350)).norm(), 0.01);
+  EXPECT_LT((contour[3] - Eigen::Vector2d(300, 350)).norm(), 0.01);
+}
+
+TEST(RectangleTool, AClickIsNoRectangle) {
+  LassoView view;
+  LassoTool tool;
+  tool.press({300, 200}, SelectMode::set, view, ContourShape::rectangle);
+  EXPECT_EQ(tool.release({302, 201}, view), LassoTool::Outcome::cancelled);
+  EXPECT_FALSE(tool.drawing());
+}
+
+TEST(RectangleTool, IsForgottenWithItsContour) {
+  LassoView view;
+  LassoTool tool;
+  tool.press({300, 200}, SelectMode::set, view, ContourShape::rectangle);
+  tool.escape();
+  tool.press({300, 200}, SelectMode::set, view);
+  EXPECT_EQ(tool.release({300, 200}, view), LassoTool::Outcome::none) << "a corner of a polygon";
+  EXPECT_TRUE(tool.drawing());
+}
+
 }  // namespace
 }  // namespace patchlab::viewer
