@@ -49,11 +49,24 @@ App::App(Platform& platform, Renderer renderer, AppOptions options)
       renderer_(std::move(renderer)),
       options_(std::move(options)),
       workbench_({options_.journals, options_.keep_journals}, [&platform] { platform.wake(); }) {
-  state_.theme = options_.theme;
+  const Settings& settings = options_.settings;
+  state_.theme = settings.theme;
+  state_.point_size = settings.point_size;
+  state_.visible_only = settings.visible_only;
+  state_.robust = settings.robust;
+  state_.layers = settings.layers;
+  stage_.camera.perspective = state_.perspective = settings.perspective;
+  chosen_scale_ = settings.scale;
+  workbench_.choose({state_.surface, state_.robust, state_.boundary});
   find_earlier_work();
   platform_.on_drop([this](const std::vector<std::string>& files) {
     for (const std::string& file : files) open(file);
   });
+}
+
+Settings App::settings() const {
+  return {state_.theme,  chosen_scale_,      state_.point_size, state_.visible_only,
+          state_.robust, state_.perspective, state_.layers};
 }
 
 void App::open(const std::filesystem::path& file) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/app/settings.h"
 #include "viewer/app/stage.h"
 #include "viewer/app/workbench.h"
 #include "viewer/panel/panels.h"
@@ -20,7 +21,7 @@
 namespace patchlab::viewer {
 
 struct AppOptions {
-  ThemeChoice theme = ThemeChoice::dark;
+  Settings settings;
   std::filesystem::path journals;  // folder for the journals of opened scans
   bool keep_journals = true;
 };
@@ -39,6 +40,8 @@ class App {
   double patience() const;
 
   void clear_notices() { state_.toasts.clear(); }
+  // As the user has made them by now.
+  Settings settings() const;
 
   Workbench& workbench() { return workbench_; }
   const ViewState& state() const { return state_; }
@@ -114,6 +117,7 @@ class App {
   std::shared_ptr<const Scan> camera_of_;                 // what the camera was last set up for
   std::uint64_t seen_changes_ = 0;
   std::optional<float> wanted_scale_;  // of the interface, from the next frame on
+  float chosen_scale_ = 0.0f;          // by the user; 0: none
   bool close_ = false;
   Workbench workbench_;  // last: its worker stops first
 };

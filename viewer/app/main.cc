@@ -5,6 +5,7 @@
 #include "viewer/app/headless.h"
 #include "viewer/app/journal_file.h"
 #include "viewer/app/options.h"
+#include "viewer/app/settings.h"
 
 namespace patchlab::viewer {
 
@@ -52,26 +53,41 @@ int run_without_user(const ViewerOptions& options, App& app, Platform& platform)
   return status;
 }
 
-int run_window(App& app, Platform& platform) {
+// Settings that cannot be written are not worth a word: the work itself is in the journal.
+int run_window(App& app, Platform& platform, const std::filesystem::path& settings_file) {
+  Settings written = app.settings();
   while (!platform.should_close() && !app.wants_to_close()) {
     platform.wait_events(app.patience());
     app.frame();
+    if (app.settings() == written) continue;
+    written = app.settings();
+    (void)write_settings(settings_file, written).ok();
   }
   return 0;
 }
 
+// What a window is like at first: as it was left, unless the command line says otherwise.
+Settings settings_for(const ViewerOptions& options, bool without_user) {
+  Settings settings = without_user ? Settings() : read_settings(default_settings_file());
+  if (options.theme) settings.theme = *options.theme;
+  if (options.scale > 0) settings.scale = options.scale;
+  return settings;
+}
+
 int run(const ViewerOptions& options) {
+  const bool without_user = options.headless || options.screenshot;
+  const Settings settings = settings_for(options, without_user);
   const Result<std::unique_ptr<Platform>> platform =
-      make_platform({"patchlab", options.width, options.height, options.headless, options.scale});
+      make_platform({"patchlab", options.width, options.height, options.headless, settings.scale});
   if (!platform) return fail(platform.error());
   Result<Renderer> renderer = Renderer::create();
   if (!renderer) return fail(renderer.error());
   // A picture of a journal leaves the journal as it is.
   const bool keeps_journals = !options.headless || options.replay;
-  App app(**platform, std::move(*renderer), {options.theme, default_journal_folder(), keeps_journals});
+  App app(**platform, std::move(*renderer), {settings, default_journal_folder(), keeps_journals});
   for (const std::filesystem::path& file : options.files) app.open(file);
-  const bool without_user = options.headless || options.screenshot;
-  return without_user ? run_without_user(options, app, **platform) : run_window(app, **platform);
+  if (without_user) return run_without_user(options, app, **platform);
+  return run_window(app, **platform, default_settings_file());
 }
 
 }  // namespace

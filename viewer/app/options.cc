@@ -48,7 +48,7 @@ std::string check_together(const ViewerOptions& options) {
 
 std::variant<ViewerOptions, Exit> parse_options(int argc, const char* const* argv) {
   ViewerOptions options;
-  std::string size = "1440x900", theme_name = "dark", replay, screenshot;
+  std::string size = "1440x900", theme_name, replay, screenshot;
   std::vector<std::string> files, exports;
   CLI::App cli("Bounded curved patches with honest uncertainty, from range scans.", "patchlab-viewer");
   cli.add_option("files", files, "scans and journals (.patchlab) to open")->type_name("SCAN|JOURNAL");
@@ -63,7 +63,8 @@ std::variant<ViewerOptions, Exit> parse_options(int argc, const char* const* arg
       ->capture_default_str();
   cli.add_option("--scale", options.scale, "of the interface; 1 is for 96 dots an inch")
       ->check(CLI::Range(0.5f, 4.0f));
-  cli.add_option("--theme", theme_name, "dark or light")->check(CLI::IsMember({"dark", "light"}));
+  cli.add_option("--theme", theme_name, "dark or light; in a window as it was left, where this is not given")
+      ->check(CLI::IsMember({"dark", "light"}));
   cli.add_option("--export", exports, "write the patches at the end (with --headless); may be repeated")
       ->type_name("FORMAT=FILE")
       ->allow_extra_args(false);
@@ -80,7 +81,7 @@ std::variant<ViewerOptions, Exit> parse_options(int argc, const char* const* arg
   options.files.assign(files.begin(), files.end());
   if (!replay.empty()) options.replay = replay;
   if (!screenshot.empty()) options.screenshot = screenshot;
-  options.theme = theme_name == "light" ? ThemeChoice::light : ThemeChoice::dark;
+  if (!theme_name.empty()) options.theme = theme_name == "light" ? ThemeChoice::light : ThemeChoice::dark;
   std::string wrong = parse_size(size, options);
   for (const std::string& text : exports) {
     if (wrong.empty()) wrong = parse_export(text, options);

@@ -16,8 +16,8 @@ struct ViewerOptions {
   std::optional<std::filesystem::path> replay, screenshot;
   int width = 1440, height = 900;
   bool headless = false;
-  float scale = 0.0f;  // 0: from the monitor
-  ThemeChoice theme = ThemeChoice::dark;
+  float scale = 0.0f;                // 0: from the monitor
+  std::optional<ThemeChoice> theme;  // none: as it was left, or dark
   std::vector<ExportRequest> exports;
 };
 

@@ -250,6 +250,8 @@ void App::view_of_sensor() {
   if (!scans.empty() && scans.back().scan) stage_.view_of_sensor(*scans.back().scan, aspect());
 }
 
-void App::scale_interface(float scale) { wanted_scale_ = std::clamp(scale, least_scale, largest_scale); }
+void App::scale_interface(float scale) {
+  wanted_scale_ = chosen_scale_ = std::clamp(scale, least_scale, largest_scale);
+}
 
 }  // namespace patchlab::viewer
