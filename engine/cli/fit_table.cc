@@ -58,7 +58,8 @@ std::string parameter_rows(const Patch& patch) {
 
 std::string report_rows(const FitReport& report) {
   std::string text = format("  chi2 / dof   %.1f / %d, p = %.2g\n", report.chi2, report.dof, report.p_value);
-  text += format("  points       %zu, %zu outliers\n", report.points, report.outliers.size());
+  text += format("  points       %zu, %zu outliers", report.points, report.outliers.size());
+  text += report.edge_points > 0 ? format(", %zu at depth edges bound only\n", report.edge_points) : "\n";
   text += format("  residual     %.2f mm rms, coverage %.0f %%\n", 1e3 * report.residual_rms,
                  100.0 * report.coverage);
   text += "  verdict      " + report.verdict + "\n";

@@ -93,6 +93,7 @@ struct FitReport {
   double containment = 1.0;
   bool robust = false;
   std::size_t points = 0;               // observations used, outliers not counted
+  std::size_t edge_points = 0;          // of these, at depth edges: in the outline, not in the surface
   std::vector<std::uint32_t> outliers;  // indices of flagged observations, ascending
   double chi2 = 0.0;
   int dof = 0;

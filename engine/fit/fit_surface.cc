@@ -31,7 +31,7 @@ class SurfaceProblem {
     ChartVector b = ChartVector::Zero();
     double cost = 0.0;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (samples_.robust[i] == 0.0) continue;
+      if (samples_.robust[i] == 0.0 || samples_.bends[i] == 0) continue;
       const Residual r = residual(options_.distance, model_, state, samples_.q[i], samples_.cov[i]);
       const double scale = options_.robust_scale;
       const double weight = options_.robust ? tukey_weight(r.F / scale) : 1.0;
@@ -82,7 +82,7 @@ double chi_square(const Samples& samples, const SurfaceModel& model, const Surfa
                   Distance distance) {
   double chi2 = 0.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples.robust[i] == 0.0) continue;
+    if (samples.robust[i] == 0.0 || samples.bends[i] == 0) continue;
     const double F = residual(distance, model, state, samples.q[i], samples.cov[i]).F;
     chi2 += F * F;
   }

@@ -57,7 +57,7 @@ Vector6 fit_heights(const Samples& samples, const SurfaceState& frame) {
   HeightSums sums{.size = extent(samples)};
   const Vector3d normal = frame.R.col(2);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples.robust[i] == 0.0) continue;
+    if (samples.robust[i] == 0.0 || samples.bends[i] == 0) continue;
     sums.add(to_local(frame, samples.q[i]), samples.robust[i] * weight_along(samples.cov[i], normal));
   }
   return sums.solve();
@@ -90,7 +90,7 @@ SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) 
   const double size = extent(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Eigen::Vector4d row = (samples.q[i] / size).homogeneous();
-    const double weight = samples.robust[i] * weight_along(samples.cov[i], near.R.col(2));
+    const double weight = samples.robust[i] * samples.bends[i] * weight_along(samples.cov[i], near.R.col(2));
     A.noalias() += weight * row * row.transpose();
     b.noalias() += weight * (samples.q[i] / size).squaredNorm() * row;
   }

@@ -116,7 +116,7 @@ JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, cons
     const Matrix93 phi_x = feet.weight[i] * J_monomials(feet.x[i]);
     M.noalias() += phi_x * m.X_chart;
     JointColumns B;
-    B.topRows<chart_size>() = std::sqrt(samples.robust[i]) * r.F_p * r.F_q.transpose();
+    B.topRows<chart_size>() = std::sqrt(samples.robust[i]) * samples.bends[i] * r.F_p * r.F_q.transpose();
     B.middleRows<plane_size>(plane_at) = plane_columns(options.plane, samples, i, fit.state.R);
     B.bottomRows<moments_size>() = phi_x * m.X_q;
     G.noalias() += (B * S) * B.transpose();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -15,6 +16,10 @@ struct Observations {
   // The covariance of observation i re-evaluated at a foot point on the surface (m), where a sensor model
   // makes it; empty where the covariances are constants (method M11).
   std::function<Eigen::Matrix3d(std::size_t i, const Eigen::Vector3d& foot)> covariance_at;
+
+  // One a point, or empty: 1 where the point lies beside a depth edge. It counts for the outline, not for the
+  // surface (method M13).
+  std::vector<std::uint8_t> at_edge;
 
   // Position of the sensor: normals are turned towards it.
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();

@@ -84,7 +84,7 @@ double residual_scale(const Samples& samples, const SurfaceFit& fit) {
   constexpr double median_of_normal = 0.6745;
   std::vector<double> sizes;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples.robust[i] == 0.0) continue;
+    if (samples.robust[i] == 0.0 || samples.bends[i] == 0) continue;
     sizes.push_back(
         std::abs(residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]).F));
   }

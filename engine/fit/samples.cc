@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <string>
 
 namespace patchlab {
@@ -65,6 +66,14 @@ Result<void> check_spread(const Samples& samples) {
   return {};
 }
 
+void set_edges_aside(Samples& samples, std::size_t least) {
+  samples.bends.assign(samples.size(), 1);
+  const std::vector<std::uint8_t>& at_edge = samples.observations->at_edge;
+  const auto inner = static_cast<std::size_t>(std::count(at_edge.begin(), at_edge.end(), 0));
+  if (inner < 3 * least || 2 * inner < samples.size()) return;
+  for (std::size_t i = 0; i < samples.size(); ++i) samples.bends[i] = at_edge[i] == 0 ? 1 : 0;
+}
+
 }  // namespace
 
 Result<Samples> make_samples(const Observations& observations, std::size_t least) {
@@ -86,6 +95,7 @@ Result<Samples> make_samples(const Observations& observations, std::size_t least
   for (const Eigen::Vector3d& point : observations.points) samples.q.push_back(point - samples.origin);
   samples.cov = observations.covariances;
   samples.robust.assign(n, 1.0);
+  set_edges_aside(samples, least);
   const Result<void> good = check_spread(samples);
   if (!good) return good.error();
   return samples;

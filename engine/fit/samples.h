@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -15,6 +16,7 @@ struct Samples {
   std::vector<Eigen::Matrix3d> cov;                  // m^2, as measured or re-evaluated at the foot points
   std::size_t semidefinite = 0;                      // covariances without extent in some direction
   std::vector<double> robust;                        // Tukey weight in [0, 1]; 1 where nothing is doubted
+  std::vector<std::uint8_t> bends;                   // 0 where a point counts for the outline alone (M13)
   const Observations* observations = nullptr;        // outlives the samples
 
   std::size_t size() const { return q.size(); }
@@ -26,7 +28,8 @@ struct Samples {
 
 // Checks of method M10: at least `least` points, every covariance finite, symmetric and positive
 // semi-definite (named by its row), points that are neither coincident nor collinear within their noise.
-// no_finite_fit otherwise.
+// no_finite_fit otherwise. Points at depth edges are set aside from the surface where half of the points and
+// three times `least` remain.
 Result<Samples> make_samples(const Observations& observations, std::size_t least);
 
 }  // namespace patchlab

@@ -122,6 +122,7 @@ Result<Workbench> begin(const Observations& observations, const FitOptions& opti
   Result<Samples> samples = make_samples(observations, least_points(options.surface));
   if (!samples) return samples.error();
   work.samples = std::move(*samples);
+  if (paper) std::fill(work.samples.bends.begin(), work.samples.bends.end(), std::uint8_t{1});
   if (const std::size_t flat = work.samples.semidefinite; flat > 0) {
     work.notes.push_back(
         {"covariance_semidefinite", static_cast<double>(flat), 0.0,
@@ -274,12 +275,14 @@ Result<FitResult> conclude(Workbench& work) {
     report.residuals.push_back(r.F);
     if (work.samples.robust[i] == 0.0) {
       report.outliers.push_back(static_cast<std::uint32_t>(i));
+    } else if (work.samples.bends[i] == 0) {
+      ++report.edge_points;
     } else {
       report.chi2 += r.F * r.F;
     }
   }
   report.points = work.samples.size() - report.outliers.size();
-  report.dof = static_cast<int>(report.points) - work.surface.model.effective_parameters;
+  report.dof = static_cast<int>(report.points - report.edge_points) - work.surface.model.effective_parameters;
   validate_fit(work.samples, work.surface, work.feet, result.patch, work.options, report);
   report.steps = std::move(work.log);
   return result;

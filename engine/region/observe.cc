@@ -2,15 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "engine/pose/rotation.h"
 #include "engine/region/pixel_edges.h"
 
 namespace patchlab {
 namespace {
-
-// method M13: standard deviation of a ray at an edge of what it sees; depth cameras match windows of several.
-constexpr double edge_pixels = 2.0;
 
 Eigen::Matrix3d full(const Covariance6& c) {
   return (Eigen::Matrix3d() << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5]).finished();
@@ -48,31 +46,28 @@ void observe_viewpoint(const Scan& scan, std::uint32_t id, Observations& observa
                                                          : scan.viewpoint.position);
 }
 
-// What the doubt of a ray at an edge adds to a point's covariance: across the ray, `sigma` radian.
-Eigen::Matrix3d across_ray(const Eigen::Vector3d& sensor, const Eigen::Vector3d& point, double sigma) {
-  const Eigen::Vector3d from_sensor = point - sensor;
-  return sigma * sigma *
-         (from_sensor.squaredNorm() * Eigen::Matrix3d::Identity() - from_sensor * from_sensor.transpose());
-}
-
-void use_sensor_model(const Scan& scan, const NoiseModel& model, PixelEdges edges,
-                      Observations& observations) {
+void use_sensor_model(const Scan& scan, const NoiseModel& model, Observations& observations) {
   std::vector<Viewpoint> sensors;
   for (std::size_t i = 0; i < observations.viewpoints.size(); ++i) {
     sensors.push_back(looking_at(observations.viewpoints[i], observations.points[i]));
   }
-  observations.covariance_at = [model, sensors = std::move(sensors), edges = std::move(edges),
-                                one = scan.viewpoint](std::size_t i, const Eigen::Vector3d& foot) {
-    Eigen::Matrix3d cov = covariance(model, sensors.empty() ? one : sensors[i], foot);
-    if (!edges.at_edge.empty() && edges.at_edge[i]) {
-      cov += across_ray(one.position, foot, edge_pixels * edges.pitch);
-    }
-    return cov;
+  observations.covariance_at = [model, sensors = std::move(sensors), one = scan.viewpoint](
+                                   std::size_t i, const Eigen::Vector3d& foot) {
+    return covariance(model, sensors.empty() ? one : sensors[i], foot);
   };
   observations.covariances.reserve(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     observations.covariances.push_back(observations.covariance_at(i, observations.points[i]));
   }
+}
+
+std::vector<double> depth_sigmas(const Scan& scan, const Observations& observations) {
+  const Eigen::Vector3d axis = rotation(scan.viewpoint).col(2);
+  std::vector<double> sigmas;
+  sigmas.reserve(observations.size());
+  for (const Eigen::Matrix3d& cov : observations.covariances)
+    sigmas.push_back(std::sqrt(axis.dot(cov * axis)));
+  return sigmas;
 }
 
 }  // namespace
@@ -98,7 +93,10 @@ Result<Observations> observe(const Scan& scan, const NoiseModel& model, std::spa
     }
     used.push_back(id);
   }
-  if (!model.from_file()) use_sensor_model(scan, model, pixel_edges(scan, used), observations);
+  if (!model.from_file()) {
+    use_sensor_model(scan, model, observations);
+    observations.at_edge = pixel_edges(scan, used, depth_sigmas(scan, observations));
+  }
   observations.viewpoint = scan.viewpoint.position;
   const bool one_camera = scan.viewpoints.empty() && (scan.organized() || scan.format == "csv");
   if (one_camera) observations.optical_axis = rotation(scan.viewpoint).col(2);

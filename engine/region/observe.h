@@ -15,10 +15,9 @@ namespace patchlab {
 // Non-finite points are left out; `kept` (optional) receives the ids that remain, in the order of the
 // observations. unreadable error where a covariance of the file is not symmetric positive semi-definite
 // (names the point). Under a sensor model, points at a depth edge of an organised scan
-// (engine/region/pixel_edges.h) are doubted by two pixels more across their ray: they widen curved objects
-// otherwise, where silhouettes count most. The optical axis is the viewpoint's z for organised scans and for
-// point tables; absent otherwise. `observations` may outlive neither `model` nor `scan`: both are captured by
-// value where they are needed.
+// (engine/region/pixel_edges.h) are marked: they would widen curved objects, whose silhouettes count most.
+// The optical axis is the viewpoint's z for organised scans and for point tables; absent otherwise.
+// `observations` may outlive neither `model` nor `scan`: both are captured by value where they are needed.
 Result<Observations> observe(const Scan& scan, const NoiseModel& model, std::span<const std::uint32_t> ids,
                              std::vector<std::uint32_t>* kept = nullptr);
 

@@ -270,6 +270,30 @@ TEST(EdgeCase, RobustFitHoldsWhereTheNoiseIsSaidTenTimesTooSmall) {
   }
 }
 
+// A depth camera widens what it sees: its outermost points lie beside the surface.
+TEST(EdgeCase, PointsAtDepthEdgesBoundTheSurfaceButDoNotBendIt) {
+  SeededRandom random;
+  Field field;
+  field.height = bowl(-4.0, -4.0);
+  Observations observations = observe(random, field);
+  const auto inner = fit(observations, SurfaceRequest::sphere);
+  observations.at_edge.assign(observations.size(), 0);
+  const Vector3d ray = observations.points.front().normalized(), side = ray.unitOrthogonal();
+  for (int i = 0; i < 40; ++i) {
+    observations.points.push_back(Vector3d(0.02, -0.03, 1.02) + 0.15 * side + 1e-3 * random.normal3());
+    observations.covariances.push_back(observations.covariances.front());
+    observations.at_edge.push_back(1);
+  }
+  const auto both = fit(observations, SurfaceRequest::sphere);
+  ASSERT_TRUE(inner);
+  ASSERT_TRUE(both);
+  EXPECT_NEAR(curvatures(both->patch)[0], curvatures(inner->patch)[0], 1e-6);
+  EXPECT_NEAR(both->report.chi2, inner->report.chi2, 1e-3);
+  EXPECT_EQ(both->report.dof, inner->report.dof);
+  EXPECT_EQ(both->report.edge_points, 40u);
+  EXPECT_GT(both->patch.parameters[0], 1.1 * inner->patch.parameters[0]);
+}
+
 TEST(EdgeCase, SelfOccludedBallIsSaidToBeSeenInPart) {
   SeededRandom random;
   Observations observations;

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <limits>
 #include <numeric>
 
@@ -37,16 +36,17 @@ std::vector<std::uint32_t> ids_of(const Scan& scan) {
   return ids;
 }
 
+const std::vector<double> sure(96, 1e-3);
+
 TEST(PixelEdges, LieOnBothSidesOfAJump) {
   const Scan scan = wall_and_box();
-  const PixelEdges edges = pixel_edges(scan, ids_of(scan));
-  ASSERT_EQ(edges.at_edge.size(), scan.size());
+  const std::vector<std::uint8_t> at_edge = pixel_edges(scan, ids_of(scan), sure);
+  ASSERT_EQ(at_edge.size(), scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const std::size_t column = i % 12;
     const bool beside = column == 3 || column == 4 || column == 7 || column == 8;
-    EXPECT_EQ(edges.at_edge[i] == 1, beside) << "column " << column;
+    EXPECT_EQ(at_edge[i] == 1, beside) << "column " << column;
   }
-  EXPECT_NEAR(edges.pitch, 0.01, 2e-4);
 }
 
 TEST(PixelEdges, LieAroundMissingPixels) {
@@ -55,31 +55,30 @@ TEST(PixelEdges, LieAroundMissingPixels) {
   scan.positions[hole].z() = std::numeric_limits<float>::quiet_NaN();
   scan.finite[hole] = 0;
   const std::vector<std::uint32_t> ids = {3 * 12 + 0, 5 * 12 + 2, 4 * 12 + 10};
-  EXPECT_THAT(pixel_edges(scan, ids).at_edge, testing::ElementsAre(1, 1, 0));
+  EXPECT_THAT(pixel_edges(scan, ids, sure), testing::ElementsAre(1, 1, 0));
+}
+
+TEST(PixelEdges, AreNotWhatNoiseAloneMayDo) {
+  const Scan scan = wall_and_box();
+  EXPECT_THAT(pixel_edges(scan, ids_of(scan), std::vector<double>(scan.size(), 0.2)), Each(0));
 }
 
 TEST(PixelEdges, AreUnknownWithoutAGrid) {
   Scan scan = wall_and_box();
   scan.width = static_cast<std::uint32_t>(scan.size());
   scan.height = 1;
-  EXPECT_TRUE(pixel_edges(scan, ids_of(scan)).at_edge.empty());
+  EXPECT_TRUE(pixel_edges(scan, ids_of(scan), sure).empty());
 }
 
-TEST(PixelEdges, AreDoubtedAcrossTheRayByTwoPixels) {
-  const Scan scan = wall_and_box();
-  const NoiseModel stereo{"kinect1", StereoNoise{}, false};
-  const Result<Observations> observations = observe(scan, stereo, ids_of(scan));
+TEST(PixelEdges, AreMarkedUnderASensorModelOnly) {
+  Scan scan = wall_and_box();
+  const Result<Observations> observations = observe(scan, {"kinect1", StereoNoise{}, false}, ids_of(scan));
   ASSERT_TRUE(observations.ok());
-  const double pitch = pixel_edges(scan, ids_of(scan)).pitch;
-  const std::size_t inner = 4 * 12 + 5, edge = 4 * 12 + 4;
-  for (const std::size_t i : {inner, edge}) {
-    const Eigen::Vector3d ray = observations->points[i].normalized(), across = ray.unitOrthogonal();
-    const Eigen::Matrix3d more =
-        observations->covariances[i] - covariance(stereo, scan.viewpoint, observations->points[i]);
-    EXPECT_NEAR(ray.dot(more * ray), 0.0, 1e-18);
-    const double sigma = i == edge ? 2.0 * pitch * observations->points[i].norm() : 0.0;
-    EXPECT_NEAR(across.dot(more * across), sigma * sigma, 1e-12);
-  }
+  EXPECT_EQ(observations->at_edge, pixel_edges(scan, ids_of(scan), sure));
+  scan.covariances.assign(scan.size(), {1e-6F, 0, 0, 1e-6F, 0, 1e-6F});
+  const Result<Observations> stated = observe(scan, *noise_model("from_file"), ids_of(scan));
+  ASSERT_TRUE(stated.ok());
+  EXPECT_TRUE(stated->at_edge.empty());
 }
 
 }  // namespace
