@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "engine/base/file.h"
 #include "engine/io/patch_set.h"
 #include "tests/engine/io/sample_set.h"
 #include "tests/support/json_schema.h"
