@@ -117,8 +117,9 @@ Result<int> merge_sets(const MergeRequest& request) {
   const View view = view_of(*set_b, *pose);
   const Association found = associate(patches_of(map), view.patches, *pose, {.gate = request.gate});
   report(found, map, view);
-  const Result<std::string> text =
-      write_patch_set(set_of(merge(map, view, found.matches).map, *set_a, *set_b));
+  PatchSet merged = set_of(merge(map, view, found.matches).map, *set_a, *set_b);
+  if (!pose->covariance.isZero(0.0)) state_shared_errors(merged);
+  const Result<std::string> text = write_patch_set(merged);
   if (!text) return text.error();
   Outputs outputs;
   outputs.add(request.output, *text);

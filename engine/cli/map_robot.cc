@@ -3,6 +3,7 @@
 #include "engine/base/file.h"
 #include "engine/cli/output.h"
 #include "engine/cli/verb.h"
+#include "engine/io/map_set.h"
 #include "engine/io/patch_set.h"
 #include "engine/io/robot_files.h"
 
@@ -40,6 +41,7 @@ Result<PatchSet> patches_of_robot(const RobotRequest& request) {
   const auto placed = robot_patches_in(*posed, *patches, to);
   if (!placed) return placed.error();
   PatchSet set;
+  if (placed->size() > 1) state_shared_errors(set);  // by the joints between them
   for (std::size_t i = 0; i < placed->size(); ++i) {
     PatchRecord record;
     record.id = record.name = (*placed)[i].id;

@@ -60,6 +60,8 @@ PatchRecord record_of(const MapPatch& patch, const std::string& frame, const Pat
 
 }  // namespace
 
+void state_shared_errors(PatchSet& set) { set.unknown["correlations"] = "patches_share_errors"; }
+
 Result<PatchMap> map_of(const PatchSet& set, const std::string& name) {
   PatchMap map;
   std::optional<Error> error;
@@ -79,6 +81,7 @@ Result<PatchMap> map_of(const PatchSet& set, const std::string& name) {
 PatchSet set_of(const PatchMap& map, const PatchSet& set, const PatchSet& added) {
   PatchSet out;
   out.unknown = set.unknown;
+  if (added.unknown.contains("correlations")) state_shared_errors(out);
   out.sources = set.sources;
   for (const PatchSource& source : added.sources) {
     if (std::ranges::find(out.sources, source.id, &PatchSource::id) == out.sources.end())

@@ -10,6 +10,9 @@
 
 namespace patchlab {
 
+// Says in the file that a pose or joints that the patches share correlate their errors (`correlations`).
+void state_shared_errors(PatchSet& set);
+
 // The map of a set. A set without observations is one whose patches were seen once, in their source. usage
 // error where its patches stand in several frames.
 Result<PatchMap> map_of(const PatchSet& set, const std::string& name);

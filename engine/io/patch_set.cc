@@ -12,7 +12,10 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::string_view format_name = "patchlab.patch_set";
-constexpr std::string_view correlations = "patches_independent";
+// The second: a pose or joints that they share correlate their errors; the file says so, not how. Kept in
+// `unknown`.
+constexpr const char* correlations = "correlations";
+constexpr std::string_view independent = "patches_independent", correlated = "patches_share_errors";
 constexpr std::uint64_t version = 1;
 constexpr std::uint64_t largest_count = 1ULL << 53;
 
@@ -86,7 +89,7 @@ ordered_json set_json(const PatchSet& set) {
   ordered_json object = {{"format", format_name},
                          {"version", version},
                          {"units", units()},
-                         {"correlations", correlations},
+                         {correlations, set.unknown.value(correlations, std::string(independent))},
                          {"sources", ordered_json::array()},
                          {"patches", ordered_json::array()}};
   for (const PatchSource& source : set.sources) {
@@ -195,7 +198,8 @@ void check_heading(const JsonPlace& root) {
   if (const auto stated = root.find("units"); stated && stated->value() != json(units())) {
     stated->fail("are " + stated->value().dump() + ", but patch sets are in metre (m) and radian (rad)");
   }
-  if (const auto stated = root.find("correlations"); stated && stated->text() != correlations) {
+  if (const auto stated = root.find(correlations);
+      stated && stated->text() != independent && stated->text() != correlated) {
     stated->fail("are \"" + stated->text() + "\", which this program does not know");
   }
 }
@@ -245,6 +249,7 @@ Result<PatchSet> read_patch_set(std::string_view text, const std::string& name) 
   }
   if (error) return *error;
   set.unknown = unknown_members(*parsed, set_json({}));
+  if (parsed->value(correlations, "") == correlated) set.unknown[correlations] = correlated;
   return set;
 }
 

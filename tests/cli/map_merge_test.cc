@@ -53,6 +53,9 @@ TEST_F(MapMerge, FusesWhatBothSeeAndAddsTheRest) {
   const Result<PatchSet> map = read_patch_set(outcome.out, "map");
   ASSERT_TRUE(map) << map.error().message;
   ASSERT_EQ(map->patches.size(), 5u);
+  EXPECT_EQ(json(outcome.out)["correlations"], "patches_share_errors") << "the pose is uncertain";
+  const Outcome again = patchlab("map merge " + write("map.json", outcome.out) + " " + a);
+  EXPECT_EQ(again.status, 2) << "the map reads back, and holds a";
   EXPECT_EQ(map->sources.size(), 2u) << "two scans of one id are two sources";
   const PatchRecord& fused = map->patches[2];
   EXPECT_EQ(fused.id, "patch-2");
@@ -71,6 +74,7 @@ TEST_F(MapMerge, GoesOnWithAMapThatItWrote) {
   const std::string map = at("map.json").string();
   const Outcome first = patchlab("map merge " + a + " " + b + " -o " + map);
   ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(json(text("map.json"))["correlations"], "patches_independent");
   const Outcome second = patchlab("map merge " + map + " " + c);
   ASSERT_EQ(second.status, 0) << second.err;
   EXPECT_EQ(read_patch_set(second.out, "map")->patches[0].unknown["observations"].size(), 3u);

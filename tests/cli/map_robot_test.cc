@@ -25,6 +25,7 @@ TEST_F(MapRobot, PutsTheWalkersPatchesIntoTheFrameOfItsBody) {
   const Result<PatchSet> set = read_patch_set(outcome.out, "set");
   ASSERT_TRUE(set);
   ASSERT_EQ(set->patches.size(), 6u);
+  EXPECT_EQ(json(outcome.out)["correlations"], "patches_share_errors") << "legs share joints";
   for (const PatchRecord& record : set->patches) {
     EXPECT_EQ(record.frame_id, "body");
     ASSERT_TRUE(record.patch.covariance_local);
