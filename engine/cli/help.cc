@@ -2,7 +2,7 @@
 
 #include "engine/cli/output.h"
 #include "engine/cli/verb.h"
-#include "engine/io/export.h"
+#include "engine/export/export.h"
 #include "engine/sensor/noise_model.h"
 
 namespace patchlab {
@@ -11,8 +11,9 @@ namespace {
 std::string formats_help() {
   std::string text = "Formats of patchlab export and replay --export:\n";
   for (const ExportFormat& format : export_formats()) {
-    text += "  " + std::string(format.name) + " (" + std::string(format.extension) + ")  " +
-            std::string(format.description) + "\n";
+    text += "  " + std::string(format.name) + " (" +
+            (format.is_folder() ? "a folder" : std::string(format.extension)) + ")  " +
+            std::string(format.description) + "\n      covariance: " + std::string(format.covariance) + "\n";
   }
   return text;
 }

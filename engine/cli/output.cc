@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "engine/base/file.h"
-
 namespace patchlab {
 
 void say(std::string_view sentence) {
@@ -15,7 +13,11 @@ void say(std::string_view sentence) {
 }
 
 void Outputs::add(std::filesystem::path file, std::string bytes) {
-  results_.emplace_back(std::move(file), std::move(bytes));
+  results_.emplace_back(std::move(file), Exported{{{"", std::move(bytes)}}, {}});
+}
+
+void Outputs::add(std::filesystem::path place, Exported exported) {
+  results_.emplace_back(std::move(place), std::move(exported));
 }
 
 Result<void> Outputs::check(const std::vector<std::filesystem::path>& files) {
@@ -26,9 +28,9 @@ Result<void> Outputs::check(const std::vector<std::filesystem::path>& files) {
 
 Result<int> Outputs::write() const {
   for (const bool to_files : {true, false}) {
-    for (const auto& [file, bytes] : results_) {
-      if ((file != "-") != to_files) continue;
-      const Result<void> written = write_file(file, bytes);
+    for (const auto& [place, exported] : results_) {
+      if ((place != "-") != to_files) continue;
+      const Result<void> written = write_exported(exported, place);
       if (!written) return written.error();
     }
   }

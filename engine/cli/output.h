@@ -9,6 +9,7 @@
 
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
+#include "engine/export/export.h"
 
 namespace patchlab {
 
@@ -19,13 +20,14 @@ void say(std::string_view sentence);
 class Outputs {
  public:
   void add(std::filesystem::path file, std::string bytes);
+  void add(std::filesystem::path place, Exported exported);  // a file or a folder
   // usage error where two results ask for standard output.
   static Result<void> check(const std::vector<std::filesystem::path>& files);
   // Writes all, files first; a file appears whole or not at all.
   Result<int> write() const;
 
  private:
-  std::vector<std::pair<std::filesystem::path, std::string>> results_;
+  std::vector<std::pair<std::filesystem::path, Exported>> results_;
 };
 
 // "reading  42 %" on standard error while work goes on; gone when it is destroyed.

@@ -3,7 +3,7 @@
 #include "engine/cli/fit_table.h"
 #include "engine/cli/output.h"
 #include "engine/cli/verb.h"
-#include "engine/io/export.h"
+#include "engine/export/export.h"
 #include "engine/project/session.h"
 
 namespace patchlab {
@@ -61,10 +61,12 @@ Result<int> replay_journal(const ReplayRequest& request) {
   if (!text) return text.error();
   Outputs outputs;
   if (!request.output.empty()) outputs.add(request.output, *text);
+  std::vector<std::string> notices;
   for (const auto& [format, file] : *exports) {
-    Result<std::string> bytes = format->write(set);
-    if (!bytes) return bytes.error();
-    outputs.add(file, std::move(*bytes));
+    Result<Exported> exported = export_patches(*format, set);
+    if (!exported) return exported.error();
+    notices.insert(notices.end(), exported->notices.begin(), exported->notices.end());
+    outputs.add(file, std::move(*exported));
   }
   if (request.json) outputs.add("-", *text);
   if (!request.json && request.output.empty() && exports->empty()) {
@@ -72,7 +74,9 @@ Result<int> replay_journal(const ReplayRequest& request) {
     for (const PatchEntry& patch : document->patches) tables += fit_table(*document, patch);
     outputs.add("-", std::move(tables));
   }
-  return outputs.write();
+  const Result<int> written = outputs.write();
+  for (const std::string& notice : notices) say(notice);
+  return written && !notices.empty() ? Result<int>(exit_status(ErrorCode::refused)) : written;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/io/pose_covariance.h"
+
 namespace patchlab {
 namespace {
 
@@ -19,12 +21,6 @@ ordered_json matrix_json(const Matrix& matrix) {
   ordered_json rows = ordered_json::array();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.push_back(vector_json(matrix.row(i)));
   return rows;
-}
-
-std::array<double, 4> quaternion_xyzw(const Vector3d& r) {
-  const double angle = r.stableNorm();
-  const double scale = angle > 0.0 ? std::sin(0.5 * angle) / angle : 0.5;
-  return {scale * r.x(), scale * r.y(), scale * r.z(), std::cos(0.5 * angle)};
 }
 
 ordered_json pose_json(const Patch& patch) {
@@ -96,6 +92,12 @@ void append_patch(ordered_json& object, const Patch& patch) {
   object["pose"] = pose_json(patch);
 }
 
+std::array<double, 4> quaternion_xyzw(const Vector3d& r) {
+  const double angle = r.stableNorm();
+  const double scale = angle > 0.0 ? std::sin(0.5 * angle) / angle : 0.5;
+  return {scale * r.x(), scale * r.y(), scale * r.z(), std::cos(0.5 * angle)};
+}
+
 ordered_json viewpoint_to_json(const Viewpoint& viewpoint) {
   return {{"position", vector_json(viewpoint.position)},
           {"quaternion_xyzw", viewpoint.quaternion_xyzw},
@@ -113,22 +115,6 @@ Viewpoint viewpoint_from_json(const JsonPlace& place) {
   const std::optional<JsonPlace> stated = place.find("stated");
   viewpoint.stated = !stated || stated->boolean();
   return viewpoint;
-}
-
-Matrix6d ros_fixed_axes_covariance(const Patch& patch) {
-  const PatchTypeRow& type = *patch.type;
-  const int tilts = type.rotation_size;
-  Matrix6d cov_local = Matrix6d::Zero();  // of (t, w), both along the patch's own axes
-  const PatchMatrix& local = *patch.covariance_local;
-  cov_local.topLeftCorner<3, 3>() = local.bottomRightCorner(3, 3);
-  cov_local.block(3, 3, tilts, tilts) = local.block(type.rotation_at(), type.rotation_at(), tilts, tilts);
-  cov_local.block(0, 3, 3, tilts) = local.block(type.position_at(), type.rotation_at(), 3, tilts);
-  cov_local.block(3, 0, tilts, 3) = local.block(type.rotation_at(), type.position_at(), tilts, 3);
-  if (type.revolute()) cov_local(5, 5) = spin_variance;
-  Matrix6d J_ros_local = Matrix6d::Zero();
-  J_ros_local.topLeftCorner<3, 3>() = J_ros_local.bottomRightCorner<3, 3>() = axes(patch);
-  const Matrix6d cov_ros = J_ros_local * cov_local * J_ros_local.transpose();
-  return 0.5 * (cov_ros + cov_ros.transpose());
 }
 
 }  // namespace patchlab

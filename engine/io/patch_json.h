@@ -2,6 +2,7 @@
 // from them. Patch sets, scenes and the patches of robots share it.
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "engine/io/json.h"
@@ -10,10 +11,6 @@
 
 namespace patchlab {
 
-// Variance that stands for "spin about z_l unknown" where a covariance is demanded: an angle uniform in (-pi,
-// pi).
-inline constexpr double spin_variance = 3.2898681336964528729;  // pi^2/3, rad^2
-
 // The patch at `place`. "covariance" and "covariance_local" may be missing or null; the local one follows
 // from the other. "pose" and the flags are derived and not read. Anything wrong is told through `place`.
 Patch patch_from_json(const JsonPlace& place);
@@ -21,13 +18,11 @@ Patch patch_from_json(const JsonPlace& place);
 // The members surface ... pose, in the order of the contract, appended to `object`.
 void append_patch(nlohmann::ordered_json& object, const Patch& patch);
 
+// The unit quaternion of the orientation vector, in the order x y z w.
+std::array<double, 4> quaternion_xyzw(const Vector3d& r);
+
 nlohmann::ordered_json viewpoint_to_json(const Viewpoint& viewpoint);
 // "position" and "quaternion_xyzw" (of norm 1 to 1e-3); "stated", true where it is missing.
 Viewpoint viewpoint_from_json(const JsonPlace& place);
-
-// Covariance of (position, rotation about fixed parent axes), the order of ROS PoseWithCovariance, from the
-// local covariance: an exact linear map that is never singular. The spin of a 5-DoF patch gets
-// `spin_variance` about z_l. Precondition: patch.covariance_local is present.
-Matrix6d ros_fixed_axes_covariance(const Patch& patch);
 
 }  // namespace patchlab

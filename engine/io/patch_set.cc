@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/io/patch_json.h"
+#include "engine/io/pose_covariance.h"
 
 namespace patchlab {
 namespace {
@@ -82,6 +83,14 @@ ordered_json record_json(const PatchRecord& record) {
   append_patch(object, record.patch);
   if (record.fit) object["fit"] = fit_json(*record.fit);
   if (!record.provenance.is_null()) object["provenance"] = record.provenance;
+  return object;
+}
+
+// What a record may hold that follows from the rest of it; an export writes more than write_patch_set.
+ordered_json known_json(const PatchRecord& record) {
+  ordered_json object = record_json(record);
+  for (const PoseCovariance& convention : pose_covariances())
+    object["pose"]["covariance_" + std::string(convention.name)] = nullptr;
   return object;
 }
 
@@ -182,7 +191,7 @@ PatchRecord record_from_json(const JsonPlace& unnamed) {
   record.patch = patch_from_json(place);
   if (const auto fit = place.find("fit")) record.fit = fit_from_json(*fit);
   if (const auto provenance = place.find("provenance")) record.provenance = provenance->value();
-  if (place.ok()) record.unknown = unknown_members(place.value(), record_json(record));
+  if (place.ok()) record.unknown = unknown_members(place.value(), known_json(record));
   return record;
 }
 

@@ -17,7 +17,7 @@ FLOORS = (
     ("engine/patch",),
     ("engine/map", "engine/fit", "engine/sensor", "engine/mesh"),
     ("engine/region", "engine/io"),
-    ("engine/project",),
+    ("engine/export", "engine/project"),
     ("engine/cli", "viewer"),
 )
 # Within the viewer, lowest first; each may include those before it, and a header that lies beside them.

@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "engine/base/file.h"
-#include "engine/io/export.h"
+#include "engine/export/export.h"
 
 namespace patchlab::viewer {
 
@@ -165,9 +165,10 @@ Result<void> export_patches(const Document& document, const fs::path& journal, c
                             const fs::path& file) {
   const Result<const ExportFormat*> chosen = export_format(format);
   if (!chosen) return chosen.error();
-  const Result<std::string> bytes = (*chosen)->write(patch_set(document, journal.filename().string()));
-  if (!bytes) return bytes.error();
-  return write_file(file, *bytes);
+  const Result<Exported> exported =
+      patchlab::export_patches(**chosen, patch_set(document, journal.filename().string()));
+  if (!exported) return exported.error();
+  return write_exported(*exported, file);
 }
 
 }  // namespace patchlab::viewer

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 
-#include "engine/io/export.h"
+#include "engine/export/export.h"
 
 namespace patchlab::viewer {
 

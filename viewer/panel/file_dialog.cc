@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cstdlib>
 
-#include "engine/io/export.h"
+#include "engine/export/export.h"
 #include "viewer/panel/colours.h"
 #include "viewer/panel/numbers.h"
 #include "viewer/platform/key.h"

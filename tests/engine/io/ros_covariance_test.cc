@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "engine/io/patch_json.h"
+#include "engine/io/pose_covariance.h"
 #include "tests/engine/io/sample_set.h"
 
 namespace patchlab {

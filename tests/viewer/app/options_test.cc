@@ -39,7 +39,7 @@ TEST(Options, AnExportTakesOneValueSoThatAScanMayFollowIt) {
 TEST(Options, WrongUsageIsTwoWithASentence) {
   const std::vector<std::vector<const char*>> wrong = {
       {"--size", "big"},   {"--size", "10x10", "--headless"}, {"--theme", "pink"},
-      {"--scale", "0"},    {"--headless", "--export", "ply"}, {"--headless", "--export", "stl=x.stl"},
+      {"--scale", "0"},    {"--headless", "--export", "ply"}, {"--headless", "--export", "dance=x.dance"},
       {"--replay", "log"}, {"--export", "ply=x.ply"},         {"--no-such-option"}};
   for (const auto& arguments : wrong) {
     const auto parsed = parse(arguments);

@@ -1,5 +1,3 @@
-#include "engine/io/export.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,9 +7,9 @@
 #include <map>
 #include <sstream>
 
-#include "engine/io/export_ply.h"
 #include "engine/mesh/patch_mesh.h"
 #include "engine/patch/marginals.h"
+#include "tests/engine/export/consumer.h"
 #include "tests/engine/io/sample_set.h"
 
 namespace patchlab {
@@ -69,27 +67,7 @@ Ply read_ply(const std::string& text) {
   return ply;
 }
 
-Ply exported(const PatchSet& set) {
-  const Result<const ExportFormat*> format = export_format("ply");
-  const Result<std::string> bytes = (*format)->write(set);
-  if (bytes) return read_ply(*bytes);
-  ADD_FAILURE() << bytes.error().message;
-  return {};
-}
-
-TEST(Export, ListsItsFormatsForAnUnknownName) {
-  const Result<const ExportFormat*> format = export_format("obj");
-  ASSERT_FALSE(format);
-  EXPECT_EQ(format.error().code, ErrorCode::usage);
-  for (const ExportFormat& known : export_formats()) {
-    EXPECT_THAT(format.error().message, testing::HasSubstr(std::string(known.name)));
-    EXPECT_EQ((*export_format(known.name))->name, known.name);
-  }
-}
-
-TEST(Export, WritesThePatchSetAsItIsWritten) {
-  EXPECT_EQ(*(*export_format("patch_set"))->write(test::sample_set()), *write_patch_set(test::sample_set()));
-}
+Ply exported(const PatchSet& set) { return read_ply(test::exported_bytes("ply", set)); }
 
 TEST(ExportPly, HoldsTheMeshOfEachPatchInDoubles) {
   const PatchSet set = test::sample_set();
@@ -127,7 +105,7 @@ TEST(ExportPly, TurnsEachTriangleOutwardWithinOnePatch) {
 }
 
 TEST(ExportPly, IsReadByOpenMesh) {
-  const std::string bytes = *write_ply(test::sample_set());
+  const std::string bytes = test::exported_bytes("ply", test::sample_set());
   std::istringstream stream(bytes);
   OpenMesh::IO::Options options(OpenMesh::IO::Options::VertexNormal);
   TriangleMesh mesh;
@@ -152,15 +130,6 @@ TEST(ExportPly, NamesPatchesTypesAndFramesInComments) {
 TEST(ExportPly, SaysWhereAPatchHasNoCovariance) {
   for (const PlyVertex& vertex : exported(test::designed_set()).vertices)
     EXPECT_EQ(vertex.height_sigma, -1.0);
-}
-
-TEST(ExportPly, RefusesAPatchThatIsNotValidByName) {
-  PatchSet set = test::designed_set();
-  set.patches[0].patch.parameters[0] = -0.1;
-  const Result<std::string> bytes = (*export_format("ply"))->write(set);
-  ASSERT_FALSE(bytes);
-  EXPECT_EQ(bytes.error().code, ErrorCode::refused);
-  EXPECT_THAT(bytes.error().message, testing::HasSubstr("patch \"left_sole\""));
 }
 
 TEST(ExportPly, OfNoPatchesIsAMeshWithoutVertices) {

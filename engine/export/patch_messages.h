@@ -1,0 +1,31 @@
+// A patch set as ROS messages, each header with the frame of its patch and the stamp 0 (the latest
+// transform).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/export/export.h"
+#include "engine/export/ros_message.h"
+
+namespace patchlab {
+
+struct PatchMessages {
+  // /patches, MarkerArray: all markers are deleted, then for each patch, with its id as name space, the
+  // surface (0, triangles in the patch's own frame), the outline (1) and the 95 % ellipsoid of the centre
+  // (2).
+  RosMessage markers;
+  // /patches/NAME/pose, PoseWithCovarianceStamped: the covariance of (position, rotation about fixed parent
+  // axes); an unknown spin has variance pi^2/3.
+  std::vector<RosMessage> poses;
+  // /patches/FRAME/points, PointCloud2, one a frame: points of the surfaces, x y z, the covariance that their
+  // height along the normal gives them (cov_xx ... cov_zz, m^2; single precision) and the number of the
+  // patch.
+  std::vector<RosMessage> points;
+  std::vector<std::string>
+      notices;  // patches without a covariance have neither pose nor ellipsoid nor points
+};
+// refused error for a patch that names no frame.
+Result<PatchMessages> patch_messages(const PatchSet& set);
+
+}  // namespace patchlab
