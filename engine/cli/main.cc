@@ -22,6 +22,7 @@ constexpr Verb map_verbs[] = {
     {"chain", "Compose a chain of uncertain poses", set_up_map_chain},
     {"robot", "Put the patches of a robot where its joints put them", set_up_map_robot},
     {"merge", "Find what two patch sets both see, and fuse it", set_up_map_merge},
+    {"query", "Ask how far, how tilted, how well a foot fits, with sigmas", set_up_map_query},
 };
 
 struct Choice {

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "engine/fit/edge_lines.h"
-#include "engine/fit/hull.h"
+#include "engine/fit/shapes_about.h"
+#include "engine/patch/hull.h"
 
 namespace patchlab {
 namespace {

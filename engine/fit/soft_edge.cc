@@ -10,7 +10,8 @@
 
 #include "engine/base/chi_square.h"
 #include "engine/fit/edge_lines.h"
-#include "engine/fit/hull.h"
+#include "engine/fit/shapes_about.h"
+#include "engine/patch/hull.h"
 
 namespace patchlab {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/map/hull.h"
+#include "engine/map/shapes_around.h"
 
 namespace patchlab {
 namespace {
@@ -64,7 +64,7 @@ Patch enclosed_quad(const Patch& patch, const std::array<Vector2d, 4>& v) {
 }
 
 Patch enclosed_plane(const Patch& patch, const std::vector<Vector3d>& points) {
-  const std::vector<Vector2d> hull = hull_around(flat(points));
+  const std::vector<Vector2d> hull = convex_hull(flat(points));
   switch (patch.type->boundary) {
     case BoundaryType::circle: {
       std::vector<Vector3d> corners;

@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include "engine/fit/fit_patch.h"
-#include "engine/fit/hull.h"
+#include "engine/fit/shapes_about.h"
+#include "engine/patch/hull.h"
 #include "tests/support/battery.h"
 #include "tests/support/seeded_random.h"
 

@@ -1,8 +1,5 @@
-#include "engine/map/hull.h"
+#include "engine/map/shapes_around.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,29 +37,11 @@ std::optional<Vector2d> meeting(const std::vector<Vector2d>& hull, std::size_t i
 
 }  // namespace
 
-std::vector<Vector2d> hull_around(std::vector<Vector2d> points) {
-  std::ranges::sort(points, [](const Vector2d& a, const Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  std::vector<Vector2d> hull;
-  for (int side = 0; side < 2; ++side) {  // the lower chain, then the upper
-    const std::size_t start = hull.size();
-    for (const Vector2d& p : points) {
-      while (hull.size() >= start + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::ranges::reverse(points);
-  }
-  return hull;
-}
-
-Eigen::Vector3d ball_centre(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d centre = points.front();
+Vector3d ball_centre(const std::vector<Vector3d>& points) {
+  Vector3d centre = points.front();
   for (int i = 1; i <= 2000; ++i) {
-    const auto farthest = std::ranges::max_element(
-        points, {}, [&](const Eigen::Vector3d& p) { return (p - centre).squaredNorm(); });
+    const auto farthest =
+        std::ranges::max_element(points, {}, [&](const Vector3d& p) { return (p - centre).squaredNorm(); });
     centre += (*farthest - centre) / (i + 1.0);
   }
   return centre;
@@ -76,33 +55,6 @@ TurnedShape smallest_rectangle(const std::vector<Vector2d>& hull) {
     if (box.d.prod() < best.d.prod()) best = box;
   }
   return best;
-}
-
-// Khachiyan's algorithm for the smallest ellipse around points, grown to hold them all.
-TurnedShape smallest_ellipse(const std::vector<Vector2d>& hull) {
-  const auto n = static_cast<Eigen::Index>(hull.size());
-  Eigen::Matrix3Xd Q(3, n);
-  for (Eigen::Index i = 0; i < n; ++i) Q.col(i) << hull[static_cast<std::size_t>(i)], 1.0;
-  Eigen::VectorXd weight = Eigen::VectorXd::Constant(n, 1.0 / static_cast<double>(n));
-  for (int step = 0; step < 2000; ++step) {
-    const Eigen::Matrix3d X = Q * weight.asDiagonal() * Q.transpose();
-    const Eigen::VectorXd M = (Q.transpose() * X.inverse() * Q).diagonal();
-    Eigen::Index farthest = 0;
-    const double most = M.maxCoeff(&farthest);
-    if (most < 3.0 * (1.0 + 1e-6)) break;
-    const double move = (most - 3.0) / (3.0 * (most - 1.0));
-    weight *= 1.0 - move;
-    weight[farthest] += move;
-  }
-  const Vector2d centre = Q.topRows<2>() * weight;
-  const Eigen::Matrix2Xd P = Q.topRows<2>();
-  const Eigen::Matrix2d S = 2.0 * (P * weight.asDiagonal() * P.transpose() - centre * centre.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(S);
-  const Eigen::Matrix2d inverse = S.inverse();
-  double grown = 0.0;
-  for (const Vector2d& p : hull) grown = std::max(grown, (p - centre).dot(inverse * (p - centre)));
-  const Vector2d x = solver.eigenvectors().col(1);
-  return {centre, std::atan2(x.y(), x.x()), (grown * solver.eigenvalues().reverse()).cwiseSqrt()};
 }
 
 Vector2d smallest_centred_ellipse(const std::vector<Vector2d>& points) {

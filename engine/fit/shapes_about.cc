@@ -1,6 +1,5 @@
-#include "engine/fit/hull.h"
+#include "engine/fit/shapes_about.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <numbers>
 
 #include "engine/fit/edge_lines.h"
+#include "engine/patch/hull.h"
 
 namespace patchlab {
 namespace {
@@ -35,26 +35,6 @@ double cost_of_dropping(const std::vector<Line>& lines, std::size_t i) {
 }
 
 }  // namespace
-
-std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
-  const auto turn = [](const Vector2d& o, const Vector2d& a, const Vector2d& b) {
-    return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x();
-  };
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  std::vector<Vector2d> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = hull.size();
-    for (const Vector2d& p : points) {
-      while (hull.size() >= first + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 EdgeVector quad_about(const std::vector<Vector2d>& hull) {
   std::vector<Line> lines;
@@ -108,27 +88,7 @@ EdgeVector rectangle_about(const std::vector<Vector2d>& hull) {
 }
 
 double least_ellipse_area(const std::vector<Vector2d>& hull) {
-  using Lifted = Eigen::Matrix3Xd;
-  constexpr double tolerance = 1e-3;
-  constexpr int most_steps = 2000;
-  const auto n = static_cast<Eigen::Index>(hull.size());
-  Lifted lifted(3, n);
-  for (Eigen::Index i = 0; i < n; ++i) lifted.col(i) = hull[static_cast<std::size_t>(i)].homogeneous();
-  Eigen::VectorXd u = Eigen::VectorXd::Constant(n, 1.0 / static_cast<double>(n));
-  for (int step = 0; step < most_steps; ++step) {
-    const Eigen::Matrix3d X = lifted * u.asDiagonal() * lifted.transpose();
-    const Eigen::VectorXd reach = (lifted.transpose() * X.inverse() * lifted).diagonal();
-    Eigen::Index furthest = 0;
-    const double most = reach.maxCoeff(&furthest);
-    if (!(most > 3.0 * (1.0 + tolerance))) break;
-    const double share = (most - 3.0) / (3.0 * (most - 1.0));
-    u *= 1.0 - share;
-    u[furthest] += share;
-  }
-  const Eigen::Matrix3d X = lifted * u.asDiagonal() * lifted.transpose();
-  const Vector2d mean = X.topRightCorner<2, 1>();
-  const Matrix2d spread = X.topLeftCorner<2, 2>() - mean * mean.transpose();
-  return std::numbers::pi * 2.0 * std::sqrt(std::max(spread.determinant(), 0.0));
+  return std::numbers::pi * smallest_ellipse(hull, 1e-3).d.prod();
 }
 
 double least_circle_area(const std::vector<Vector2d>& hull) {
