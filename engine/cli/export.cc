@@ -44,6 +44,8 @@ Result<int> export_set(const ExportRequest& request) {
   if (request.dry_run) return print_preview(preview_export(**format, *set, options));
   const Result<void> written = write_exported(*exported, request.output);
   if (!written) return written.error();
+  if ((*format)->covariance == "none")
+    say("The format " + request.format + " holds no covariance; the patch set does.");
   for (const std::string& notice : exported->notices) say(notice);
   return exported->notices.empty() ? 0 : exit_status(ErrorCode::refused);
 }

@@ -8,7 +8,7 @@
 namespace patchlab {
 namespace {
 
-constexpr int cells = 96;  // of a height field, along each side
+constexpr int field_cells = 96;  // of a height field, along each side
 
 // The heights of a concave patch over the box around its outline. A node outside within a cell of the outline
 // has its height, one farther away the lowest of all, so that the field ends at the outline, to one cell.
@@ -32,10 +32,10 @@ Vector2d held_within(const Boundary& bound, const Vector2d& u) {
 HeightField height_field(const Patch& patch) {
   const Boundary bound = boundary(patch);
   const Vector3d k = k3(patch);
-  const Vector2d half = extent(bound), cell = 2.0 * half / cells;
-  Eigen::MatrixXd z = Eigen::MatrixXd::Constant(cells + 1, cells + 1, NAN);
-  for (int row = 0; row <= cells; ++row) {
-    for (int column = 0; column <= cells; ++column) {
+  const Vector2d half = extent(bound), cell = 2.0 * half / field_cells;
+  Eigen::MatrixXd z = Eigen::MatrixXd::Constant(field_cells + 1, field_cells + 1, NAN);
+  for (int row = 0; row <= field_cells; ++row) {
+    for (int column = 0; column <= field_cells; ++column) {
       const Vector2d u = Vector2d(column, row).cwiseProduct(cell) - half;
       const Vector2d held = held_within(bound, u);
       if (((u - held).cwiseAbs() - cell).maxCoeff() <= 0.0) z(row, column) = height(held, k);
@@ -97,7 +97,7 @@ Result<Exported> export_mjcf(const PatchSet& set, const ExportOptions& options) 
     patch.concave ? add_field(mjcf, *world, patch) : add_mesh(mjcf, *world, patch);
   const std::string text =
       "<mujoco model=\"patches in " + world->frame +
-      "\">\n  <!-- Metre. Concave patches and saddles are height fields, which end at the outline to one cell; the "
+      "\">\n  <!-- Metre; no covariance. Concave patches and saddles are height fields, which end at the outline to one cell; the "
       "others are meshes. -->\n  <compiler angle=\"radian\"/>\n  <asset>\n" +
       mjcf.assets + "  </asset>\n  <worldbody>\n" + mjcf.geoms + "  </worldbody>\n</mujoco>\n";
   Exported out{std::move(mjcf.files), {}};

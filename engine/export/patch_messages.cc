@@ -1,7 +1,6 @@
 #include "engine/export/patch_messages.h"
 
 #include <algorithm>
-#include <map>
 
 #include "engine/export/text.h"
 #include "engine/export/triangles.h"
@@ -22,7 +21,7 @@ enum PointFieldType { field_uint32 = 6, field_float32 = 7 };
 constexpr double probability = 0.95;
 constexpr double line_width = 0.002;     // m
 constexpr double least_diameter = 1e-6;  // m; a marker of no size is an error to RViz
-constexpr int marker_resolution = 16, cloud_resolution = 8;
+constexpr int cloud_cells = 8;
 
 ordered_json xyz(const Vector3d& v) { return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}}; }
 
@@ -50,11 +49,11 @@ ordered_json marker(const PatchRecord& record, int id, MarkerKind kind, const or
           {"frame_locked", false}};
 }
 
-ordered_json surface_marker(const PatchRecord& record) {
+ordered_json surface_marker(const PatchRecord& record, int cells) {
   const Pose pose = world_from_patch(record.patch);
   ordered_json out = marker(record, 0, triangle_list, pose_of(pose.r, pose.t), Vector3d::Ones(),
                             colour(0.27, 0.55, 0.85, 0.85));
-  const Triangles mesh = open_surface(record.patch, marker_resolution);
+  const Triangles mesh = open_surface(record.patch, cells);
   ordered_json points = ordered_json::array();
   for (const auto& face : mesh.faces) {
     for (const std::uint32_t corner : face) points.push_back(xyz(mesh.points[corner]));
@@ -63,12 +62,12 @@ ordered_json surface_marker(const PatchRecord& record) {
   return out;
 }
 
-ordered_json outline_marker(const PatchRecord& record) {
+ordered_json outline_marker(const PatchRecord& record, int cells) {
   const Pose pose = world_from_patch(record.patch);
   ordered_json out = marker(record, 1, line_strip, pose_of(pose.r, pose.t), {line_width, 0.0, 0.0},
                             colour(0.95, 0.95, 0.95, 1.0));
   ordered_json points = ordered_json::array();
-  for (const Vector2d& u : outline(boundary(record.patch), 128))
+  for (const Vector2d& u : outline(boundary(record.patch), 8 * cells))
     points.push_back(xyz(surface_point(u, k3(record.patch))));
   points.push_back(ordered_json(points.front()));
   out["points"] = std::move(points);
@@ -91,84 +90,81 @@ ordered_json pose_with_covariance(const PatchRecord& record) {
           {"pose", {{"pose", pose_of(pose.r, pose.t)}, {"covariance", std::move(covariance)}}}};
 }
 
-// The points of one frame, in the bytes of a PointCloud2.
-class Cloud {
- public:
-  void add(const Patch& patch, std::uint32_t number) {
-    const Triangles mesh = open_surface(patch, cloud_resolution);
-    const Matrix3d R = axes(patch);
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-      const Vector3d q = R * mesh.points[i] + centre(patch),
-                     n = height_sigma(patch, mesh.u[i]) * (R * mesh.normals[i]);
-      for (const double value : {q.x(), q.y(), q.z(), n.x() * n.x(), n.x() * n.y(), n.x() * n.z(),
-                                 n.y() * n.y(), n.y() * n.z(), n.z() * n.z()})
-        append_bytes(bytes_, static_cast<float>(value));
-      append_bytes(bytes_, number);
-      ++count_;
-    }
-  }
+constexpr std::string_view cloud_fields[] = {"x",      "y",      "z",      "cov_xx", "cov_xy",
+                                             "cov_xz", "cov_yy", "cov_yz", "cov_zz", "patch"};
 
-  ordered_json message(const std::string& frame) const {
-    ordered_json fields = ordered_json::array();
-    std::uint32_t offset = 0;
-    for (const char* name :
-         {"x", "y", "z", "cov_xx", "cov_xy", "cov_xz", "cov_yy", "cov_yz", "cov_zz", "patch"}) {
-      const bool last = std::string_view(name) == "patch";
-      fields.push_back({{"name", name},
-                        {"offset", offset},
-                        {"datatype", static_cast<int>(last ? field_uint32 : field_float32)},
-                        {"count", 1}});
-      offset += 4;
-    }
-    ordered_json data = ordered_json::array();
-    for (const char byte : bytes_) data.push_back(static_cast<std::uint8_t>(byte));
-    return {{"header", header_in(frame)},
-            {"height", 1},
-            {"width", count_},
-            {"fields", fields},
-            {"is_bigendian", false},
-            {"point_step", offset},
-            {"row_step", offset * count_},
-            {"data", std::move(data)},
-            {"is_dense", true}};
+ordered_json field_messages() {
+  ordered_json fields = ordered_json::array();
+  for (const std::string_view name : cloud_fields) {
+    fields.push_back({{"name", name},
+                      {"offset", 4 * fields.size()},
+                      {"datatype", static_cast<int>(name == "patch" ? field_uint32 : field_float32)},
+                      {"count", 1}});
   }
+  return fields;
+}
 
- private:
-  std::string bytes_;
-  std::uint32_t count_ = 0;
-};
+ordered_json cloud_message(const PatchRecord& record, std::uint32_t number) {
+  const Patch& patch = record.patch;
+  const Triangles mesh = open_surface(patch, cloud_cells);
+  const Matrix3d R = axes(patch);
+  std::string bytes;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const Vector3d q = R * mesh.points[i] + centre(patch);
+    const Vector3d n = height_sigma(patch, mesh.u[i]) * (R * mesh.normals[i]);
+    for (const double value : {q.x(), q.y(), q.z(), n.x() * n.x(), n.x() * n.y(), n.x() * n.z(),
+                               n.y() * n.y(), n.y() * n.z(), n.z() * n.z()})
+      append_bytes(bytes, static_cast<float>(value));
+    append_bytes(bytes, number);
+  }
+  ordered_json data = ordered_json::array();
+  for (const char byte : bytes) data.push_back(static_cast<std::uint8_t>(byte));
+  return {{"header", header_in(record.frame_id)},
+          {"height", 1},
+          {"width", mesh.points.size()},
+          {"fields", field_messages()},
+          {"is_bigendian", false},
+          {"point_step", 4 * std::size(cloud_fields)},
+          {"row_step", bytes.size()},
+          {"data", std::move(data)},
+          {"is_dense", true}};
+}
 
 }  // namespace
 
-Result<PatchMessages> patch_messages(const PatchSet& set) {
+Result<PatchMessages> patch_messages(const PatchSet& set, int cells) {
   PatchMessages out;
-  ordered_json markers = {{{"action", delete_all}}};
-  std::map<std::string, Cloud> clouds;
   for (std::size_t i = 0; i < set.patches.size(); ++i) {
     const PatchRecord& record = set.patches[i];
     if (record.frame_id.empty()) {
       return Error{ErrorCode::refused,
                    "patch \"" + record.id +
-                       "\": names no frame_id, which every ROS message needs. Nothing was written."};
+                       "\": names no frame_id, which every ROS message needs. Nothing was "
+                       "written."};
     }
-    markers.push_back(surface_marker(record));
-    markers.push_back(outline_marker(record));
-    if (!record.patch.covariance_local) {
+    const std::string topic = "/patches/" + plain_name(record.id, i);
+    ordered_json markers = {surface_marker(record, cells), outline_marker(record, cells)};
+    if (record.patch.covariance_local) {
+      markers.push_back(ellipsoid_marker(record));
+      out.poses.push_back(
+          {topic + "/pose", "geometry_msgs/PoseWithCovarianceStamped", pose_with_covariance(record)});
+      out.points.push_back({topic + "/points", "sensor_msgs/PointCloud2",
+                            cloud_message(record, static_cast<std::uint32_t>(i))});
+    } else {
       out.notices.push_back("patch \"" + record.id +
                             "\": has no covariance, so its pose, ellipsoid and points were left out.");
-      continue;
     }
-    markers.push_back(ellipsoid_marker(record));
-    out.poses.push_back({"/patches/" + plain_name(record.id, i) + "/pose",
-                         "geometry_msgs/PoseWithCovarianceStamped", pose_with_covariance(record)});
-    clouds[record.frame_id].add(record.patch, static_cast<std::uint32_t>(i));
-  }
-  out.markers = {"/patches", "visualization_msgs/MarkerArray", {{"markers", std::move(markers)}}};
-  for (const auto& [frame, cloud] : clouds) {
-    out.points.push_back({"/patches/" + plain_name(frame, out.points.size()) + "/points",
-                          "sensor_msgs/PointCloud2", cloud.message(frame)});
+    out.markers.push_back({"/patches", "visualization_msgs/MarkerArray", {{"markers", std::move(markers)}}});
   }
   return out;
+}
+
+RosMessage all_markers(const PatchMessages& messages) {
+  ordered_json markers = {{{"action", delete_all}}};
+  for (const RosMessage& message : messages.markers) {
+    for (const ordered_json& marker : message.value["markers"]) markers.push_back(marker);
+  }
+  return {"/patches", "visualization_msgs/MarkerArray", {{"markers", std::move(markers)}}};
 }
 
 }  // namespace patchlab

@@ -10,22 +10,23 @@
 
 namespace patchlab {
 
+// Each list has one message a patch.
 struct PatchMessages {
-  // /patches, MarkerArray: all markers are deleted, then for each patch, with its id as name space, the
-  // surface (0, triangles in the patch's own frame), the outline (1) and the 95 % ellipsoid of the centre
-  // (2).
-  RosMessage markers;
+  // /patches, MarkerArray: with its id as name space the surface (0, triangles in the patch's own frame), the
+  // outline (1) and the 95 % ellipsoid of the centre (2).
+  std::vector<RosMessage> markers;
   // /patches/NAME/pose, PoseWithCovarianceStamped: the covariance of (position, rotation about fixed parent
   // axes); an unknown spin has variance pi^2/3.
   std::vector<RosMessage> poses;
-  // /patches/FRAME/points, PointCloud2, one a frame: points of the surfaces, x y z, the covariance that their
-  // height along the normal gives them (cov_xx ... cov_zz, m^2; single precision) and the number of the
-  // patch.
+  // /patches/NAME/points, PointCloud2: points of the surface, x y z, the covariance that their height along
+  // the normal gives them (cov_xx ... cov_zz, m^2; single precision) and the number of the patch.
   std::vector<RosMessage> points;
   std::vector<std::string>
       notices;  // patches without a covariance have neither pose nor ellipsoid nor points
 };
-// refused error for a patch that names no frame.
-Result<PatchMessages> patch_messages(const PatchSet& set);
+// Surfaces of `cells` cells along each side. refused error for a patch that names no frame.
+Result<PatchMessages> patch_messages(const PatchSet& set, int cells);
+// The markers of all patches in one message; markers that are there already are deleted first.
+RosMessage all_markers(const PatchMessages& messages);
 
 }  // namespace patchlab

@@ -94,10 +94,10 @@ std::string bag_bytes(const Chunk& all) {
 }  // namespace
 
 Result<Exported> export_ros1_bag(const PatchSet& set, const ExportOptions&) {
-  Result<PatchMessages> messages = patch_messages(set);
+  Result<PatchMessages> messages = patch_messages(set, 24);
   if (!messages) return messages.error();
   Chunk all;
-  all.add(messages->markers);
+  all.add(all_markers(*messages));
   for (const RosMessage& message : messages->poses) all.add(message);
   for (const RosMessage& message : messages->points) all.add(message);
   return Exported{{{"", bag_bytes(all)}}, std::move(messages->notices)};

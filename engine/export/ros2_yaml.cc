@@ -17,7 +17,7 @@ std::string yaml_number(double value) {
 
 std::string flow(const ordered_json& value) {
   if (value.is_number_float()) return yaml_number(value.get<double>());
-  if (!value.is_structured()) return value.dump();
+  if (!value.is_structured()) return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string text, between;
   for (const auto& [key, element] : value.items()) {
     text += between + (value.is_object() ? key + ": " : "") + flow(element);
@@ -52,9 +52,12 @@ std::string ros2_type(std::string_view type) {
   return std::string(type.substr(0, slash)) + "/msg" + std::string(type.substr(slash));
 }
 
+// "p0_ball.pose.yaml"
 ExportedFile yaml_file(const RosMessage& message, const std::string& name) {
-  std::string text =
-      "# ros2 topic pub " + message.topic + " " + ros2_type(message.type) + " \"$(cat " + name + ")\"\n";
+  std::string text = "# ros2 topic pub --once " + message.topic + " " + ros2_type(message.type) +
+                     " \"$(cat " + name + ")\"\n";
+  if (message.type.ends_with("PoseWithCovarianceStamped"))
+    text += "# covariance: of position, then rotation about fixed parent axes, row by row\n";
   append_yaml(text, message.value, 0);
   return {name, std::move(text)};
 }
@@ -62,17 +65,19 @@ ExportedFile yaml_file(const RosMessage& message, const std::string& name) {
 }  // namespace
 
 Result<Exported> export_ros2_yaml(const PatchSet& set, const ExportOptions&) {
-  Result<PatchMessages> messages = patch_messages(set);
+  constexpr int cells = 8;  // so that each file fits an argument of a command, 128 kB
+  Result<PatchMessages> messages = patch_messages(set, cells);
   if (!messages) return messages.error();
-  Exported out{{yaml_file(messages->markers, "markers.yaml")}, std::move(messages->notices)};
-  const auto add_all = [&](const std::vector<RosMessage>& all, const std::string& ending) {
-    for (const RosMessage& message : all) {
-      const std::string within = message.topic.substr(std::string("/patches/").size());
-      out.files.push_back(yaml_file(message, within.substr(0, within.find('/')) + ending));
+  Exported out{{}, std::move(messages->notices)};
+  for (std::size_t i = 0; i < set.patches.size(); ++i)
+    out.files.push_back(yaml_file(messages->markers[i], plain_name(set.patches[i].id, i) + ".markers.yaml"));
+  for (const std::vector<RosMessage>* list : {&messages->poses, &messages->points}) {
+    for (const RosMessage& message : *list) {
+      std::string name = message.topic.substr(std::string_view("/patches/").size()) + ".yaml";
+      name[name.rfind('/')] = '.';
+      out.files.push_back(yaml_file(message, name));
     }
-  };
-  add_all(messages->poses, ".pose.yaml");
-  add_all(messages->points, ".points.yaml");
+  }
   return out;
 }
 

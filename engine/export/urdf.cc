@@ -30,7 +30,8 @@ Result<Exported> export_urdf(const PatchSet& set, const ExportOptions& options) 
   if (!world) return world.error();
   Exported out;
   std::string text =
-      "<?xml version=\"1.0\"?>\n<robot name=\"patches\">\n  <link name=\"" + world->frame + "\"/>\n";
+      "<?xml version=\"1.0\"?>\n<robot name=\"patches\">\n  <!-- Metre, radian; no covariance. -->\n  <link name=\"" +
+      world->frame + "\"/>\n";
   for (const WorldPatch& patch : world->patches) {
     if (patch.id == world->frame) {
       return Error{ErrorCode::refused,

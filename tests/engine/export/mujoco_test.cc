@@ -37,7 +37,35 @@ Model load(const std::filesystem::path& file) {
   return model;
 }
 
-TEST(Mjcf, HoldsAGeomForEveryPatchWhereItStands) {
+std::vector<Vector3d> vertices_of(const mjModel& model, int geom) {
+  const int mesh = model.geom_dataid[geom];
+  std::vector<Vector3d> out;
+  for (int i = 0; i < model.mesh_vertnum[mesh]; ++i)
+    out.push_back(Eigen::Vector3f::Map(model.mesh_vert + 3 * (model.mesh_vertadr[mesh] + i)).cast<double>());
+  return out;
+}
+
+std::vector<Vector3d> nodes_of(const mjModel& model, int geom) {
+  const int field = model.geom_dataid[geom], rows = model.hfield_nrow[field],
+            columns = model.hfield_ncol[field];
+  const double* const size = model.hfield_size + 4 * field;
+  std::vector<Vector3d> out;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      out.emplace_back(
+          size[0] * (2.0 * column / (columns - 1) - 1.0), size[1] * (2.0 * row / (rows - 1) - 1.0),
+          size[2] * static_cast<double>(model.hfield_data[model.hfield_adr[field] + row * columns + column]));
+    }
+  }
+  return out;
+}
+
+// To first order, m.
+double from_surface(const Vector3d& q, const Vector3d& k) {
+  return std::abs(implicit(q, k)) / gradient(q, k).norm();
+}
+
+TEST(Mjcf, HoldsTheSurfaceOfEveryPatchWhereItStands) {
   const test::Folder folder;
   PatchSet set = test::sample_set();
   std::erase_if(set.patches, [](const PatchRecord& record) { return record.id.starts_with("plane_quad_"); });
@@ -51,24 +79,25 @@ TEST(Mjcf, HoldsAGeomForEveryPatchWhereItStands) {
     ASSERT_GE(geom, 0) << record.id;
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> > R(data->geom_xmat + 9 * geom);
     const Vector3d at = Vector3d::Map(data->geom_xpos + 3 * geom);
-    // What the geom reaches, in the frame of the patch: by its vertices, or by the nodes of its field.
+    // What MuJoCo holds of it, in the frame of the patch: the vertices of a mesh, the nodes of a field.
     Eigen::AlignedBox3d box;
-    const auto reach = [&](const Vector3d& q) {
-      box.extend(axes(record.patch).transpose() * (R * q + at - centre(record.patch)));
+    const auto held = [&](const Vector3d& q) {
+      const Vector3d out = axes(record.patch).transpose() * (R * q + at - centre(record.patch));
+      box.extend(out);
+      return out;
     };
-    const int shape = model->geom_dataid[geom];
-    if (model->geom_type[geom] == mjGEOM_MESH) {
-      for (int i = 0; i < model->mesh_vertnum[shape]; ++i)
-        reach(Eigen::Vector3f::Map(model->mesh_vert + 3 * (model->mesh_vertadr[shape] + i)).cast<double>());
-    } else {
-      const Vector3d size = Vector3d::Map(model->hfield_size + 4 * shape);
-      reach({size.x(), size.y(), size.z()});
-      reach({-size.x(), -size.y(), 0.0});
+    const Vector3d k = k3(record.patch);
+    const bool mesh = model->geom_type[geom] == mjGEOM_MESH;
+    for (const Vector3d& q : mesh ? vertices_of(*model, geom) : nodes_of(*model, geom)) {
+      const Vector3d point = held(q);
+      if (!mesh && !contains(boundary(record.patch), point.head<2>())) continue;
+      const Vector3d above = point + Vector3d(0.0, 0.0, 0.005);  // of the underside
+      const double off =
+          mesh ? std::min(from_surface(point, k), from_surface(above, k)) : from_surface(point, k);
+      EXPECT_LT(off, 1e-6) << record.id << " " << point.transpose();
     }
     Eigen::AlignedBox3d expected(Vector3d::Zero().eval());
-    for (const Vector2d& u : outline(boundary(record.patch), 400))
-      expected.extend(surface_point(u, k3(record.patch)));
-    const bool mesh = model->geom_type[geom] == mjGEOM_MESH;
+    for (const Vector2d& u : outline(boundary(record.patch), 400)) expected.extend(surface_point(u, k));
     if (mesh) expected.extend(expected.min() - Vector3d(0.0, 0.0, 0.005));
     EXPECT_NEAR(box.max().z(), expected.max().z(), 1e-6) << record.id;
     EXPECT_NEAR(box.min().z(), expected.min().z(), 1e-6) << record.id;

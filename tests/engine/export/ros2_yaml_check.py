@@ -40,17 +40,19 @@ def message(value, fields):
     return types.SimpleNamespace(**{name: message((value or {}).get(name), inner) for name, inner in fields.items()})
 
 
-def read_message(file):
+def read_message(file, expected_topic):
     text = file.read_text(encoding="utf-8")
-    topic, kind = text.split("\n", 1)[0].split()[4:6]
-    return topic, kind, message(yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader)), FIELDS[kind])
+    assert len(text) < 131072  # what Linux takes as one argument of a command
+    topic, kind = text.split("\n", 1)[0].split()[5:7]
+    assert topic == expected_topic
+    return message(yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader)), FIELDS[kind])
 
 
 patches = read(SET)
 place = export("ros2-yaml", "set")
-read_files = {topic: (kind, content) for topic, kind, content in map(read_message, place.iterdir())}
-assert len(read_files) == 12 and {kind for kind, _ in read_files.values()} == set(FIELDS)
-check_markers(read_files["/patches"][1].markers, patches)
+assert len(list(place.iterdir())) == 30
 for number, patch in enumerate(patches):
-    check_pose(read_files[f"/patches/p{number}_{patch['id'].replace('-', '_')}/pose"][1], patch)
-check_points(read_files["/patches/p0_world/points"][1], patches)
+    name = f"p{number}_{patch['id'].replace('-', '_')}"
+    check_markers(read_message(place / f"{name}.markers.yaml", "/patches").markers, [patch])
+    check_pose(read_message(place / f"{name}.pose.yaml", f"/patches/{name}/pose"), patch)
+    check_points(read_message(place / f"{name}.points.yaml", f"/patches/{name}/points"), number, patch)

@@ -9,7 +9,7 @@ geometry = needed("geometry_msgs.msg", "python3-geometry-msgs")
 sensor = needed("sensor_msgs.msg", "python3-sensor-msgs")
 visualization = needed("visualization_msgs.msg", "python3-visualization-msgs")
 from patch_set import read  # noqa: E402
-from ros_messages import check_markers, check_points, check_pose  # noqa: E402
+from ros_messages import DELETE_ALL, check_markers, check_points, check_pose  # noqa: E402
 
 CLASSES = {"visualization_msgs/MarkerArray": visualization.MarkerArray, "sensor_msgs/PointCloud2": sensor.PointCloud2,
            "geometry_msgs/PoseWithCovarianceStamped": geometry.PoseWithCovarianceStamped}
@@ -22,9 +22,10 @@ with rosbag.Bag(str(export("ros1-bag", "set.bag"))) as bag:
         made = genmsg.generate_dynamic(connection.datatype, connection.msg_def)[connection.datatype]
         assert made._md5sum == connection.md5sum and made._slot_types == CLASSES[connection.datatype]._slot_types
     messages = {topic: message for topic, message, _ in bag.read_messages()}
-assert len(messages) == 12 and info.topics["/patches"].message_count == 1
-check_markers(messages["/patches"].markers, patches)
+markers = messages["/patches"].markers
+assert len(messages) == 21 and info.topics["/patches"].message_count == 1 and markers[0].action == DELETE_ALL
+check_markers(markers[1:], patches)
 for number, patch in enumerate(patches):
-    topic = f"/patches/p{number}_{patch['id'].replace('-', '_')}/pose"
-    check_pose(messages[topic], patch)
-check_points(messages["/patches/p0_world/points"], patches)
+    topic = f"/patches/p{number}_{patch['id'].replace('-', '_')}"
+    check_pose(messages[topic + "/pose"], patch)
+    check_points(messages[topic + "/points"], number, patch)

@@ -255,10 +255,24 @@ TEST(PlanarRegions, HoldTheFlatPatchesAndNameTheCurvedOnes) {
   EXPECT_THAT(document["patches"], Contains("plane_quad"));
   EXPECT_THAT(exported->notices, Contains(HasSubstr("sphere_concave\": is curved")));
   EXPECT_EQ(document["patches"].size() + exported->notices.size(), 10u);
-  const json& region = document["planarRegions"][0];
-  EXPECT_EQ(region["insets"].size(), 1u);
-  EXPECT_GE(region["boundary"]["outer_boundary"]["points"].size(), 3u);
-  EXPECT_LT(region["bbox2d"]["min_x"], region["bbox2d"]["max_x"]);
+  const PatchSet set = test::ten_types();
+  for (std::size_t i = 0; i < document["patches"].size(); ++i) {
+    const json& region = document["planarRegions"][i];
+    const auto record =
+        std::ranges::find(set.patches, document["patches"][i].get<std::string>(), &PatchRecord::id);
+    const std::vector<Vector2d> inset = inner_polygon(record->patch, 2.0, 0.0);
+    const json& points = region["insets"][0]["outer_boundary"]["points"];
+    ASSERT_EQ(points.size(), inset.size());
+    for (std::size_t j = 0; j < inset.size(); ++j) {
+      EXPECT_EQ(points[j]["x"], inset[j].x());
+      EXPECT_EQ(points[j]["y"], inset[j].y());
+    }
+    EXPECT_EQ(region["plane_parameters"]["position"]["z"], centre(record->patch).z());
+    double right = 0.0;
+    for (const Vector2d& u : outline(boundary(record->patch), 128)) right = std::max(right, u.x());
+    EXPECT_NEAR(region["bbox2d"]["max_x"], right, 1e-12);
+    EXPECT_GE(region["boundary"]["outer_boundary"]["points"].size(), 4u);
+  }
 }
 
 }  // namespace
