@@ -11,6 +11,7 @@ namespace {
 
 constexpr double tukey_constant = 4.685;  // 95 % efficiency on clean normal data
 constexpr int trial_iterations = 6;       // of each of several starts, before the best goes on
+constexpr double during_fits = 0.4;       // of a whole fit, as progress says it
 
 double tukey_loss(double F) {
   const double inside = 1.0 - std::min(F * F / (tukey_constant * tukey_constant), 1.0);
@@ -121,7 +122,9 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const 
   fit.state = start;
   if (model.vertex_prior) fit.prior = prior;
   const SurfaceProblem problem(samples, model, options, fit.prior);
-  LeastSquaresSummary summary = minimise(problem, fit.state, options.solver);
+  LeastSquaresOptions solver = options.solver;
+  if (samples.progress) solver.keep_going = [&samples] { return samples.progress(during_fits); };
+  LeastSquaresSummary summary = minimise(problem, fit.state, solver);
   fit.A = std::move(summary.at_solution.A);
   fit.cost = summary.at_solution.cost;
   fit.iterations = summary.iterations;

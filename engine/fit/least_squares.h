@@ -11,6 +11,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace patchlab {
@@ -28,7 +29,8 @@ struct NormalEquations {
 struct LeastSquaresOptions {
   int max_iterations = 100;
   double stop = 1e-10;  // step' A step: the step in units of the result's own standard deviations, squared
-  double initial_damping = 1e-3;  // relative to the diagonal of A
+  double initial_damping = 1e-3;          // relative to the diagonal of A
+  std::function<bool()> keep_going = {};  // asked before each step; false ends it where it is
 };
 
 struct LeastSquaresSummary {
@@ -59,7 +61,8 @@ LeastSquaresSummary minimise(const Problem& problem, typename Problem::State& st
   NormalEquations here = problem.evaluate(state);
   StepVector scale = StepVector::Zero(here.b.size());
   double damping = options.initial_damping, growth = first_growth;
-  while (!summary.converged && summary.iterations < options.max_iterations && std::isfinite(here.cost)) {
+  while (!summary.converged && summary.iterations < options.max_iterations && std::isfinite(here.cost) &&
+         (!options.keep_going || options.keep_going())) {
     ++summary.iterations;
     const StepVector information = here.A.diagonal();
     scale = scale.cwiseMax(information).cwiseMax(1e-30 * information.maxCoeff());

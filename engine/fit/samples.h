@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/progress.h"
 #include "engine/base/result.h"
 #include "engine/fit/observation.h"
 
@@ -18,6 +19,7 @@ struct Samples {
   std::vector<double> robust;                        // Tukey weight in [0, 1]; 1 where nothing is doubted
   std::vector<std::uint8_t> bends;                   // 0 where a point counts for the outline alone (M13)
   const Observations* observations = nullptr;        // outlives the samples
+  Progress progress = {};  // asked in every step of a fit: once it says stop, fits end where they are
 
   std::size_t size() const { return q.size(); }
   Eigen::Vector3d viewpoint(std::size_t i) const {  // m, about origin

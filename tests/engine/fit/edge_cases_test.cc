@@ -410,5 +410,18 @@ TEST(EdgeCase, ContainmentOutsideItsRangeIsWrongUsage) {
   }
 }
 
+TEST(FitPatch, ThatIsToldToStopTakesNoFurtherSteps) {
+  SeededRandom random;
+  const Observations observations = observe(random, {.height = bowl(-4.0, -5.0)});
+  int asked = 0;
+  ASSERT_TRUE(fit_patch(observations, {}, [&asked](double) { return ++asked > 0; }));
+  const int in_full = asked;
+  asked = 0;
+  const Result<FitResult> stopped = fit_patch(observations, {}, [&asked](double) { return ++asked < 8; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
+  EXPECT_LT(asked, in_full / 2) << "each fit that was still to come asks once";
+}
+
 }  // namespace
 }  // namespace patchlab
