@@ -7,6 +7,7 @@
 
 #include "viewer/app/journal_file.h"
 #include "viewer/app/point_shades.h"
+#include "viewer/panel/numbers.h"
 
 namespace patchlab::viewer {
 
@@ -55,6 +56,8 @@ App::App(Platform& platform, Renderer renderer, AppOptions options)
   state_.visible_only = settings.visible_only;
   state_.robust = settings.robust;
   state_.layers = settings.layers;
+  state_.map = settings.map;
+  state_.widths = settings.widths;
   stage_.camera.perspective = state_.perspective = settings.perspective;
   chosen_scale_ = settings.scale;
   workbench_.choose({state_.surface, state_.robust, state_.boundary});
@@ -65,13 +68,21 @@ App::App(Platform& platform, Renderer renderer, AppOptions options)
 }
 
 Settings App::settings() const {
-  return {state_.theme,  chosen_scale_,      state_.point_size, state_.visible_only,
-          state_.robust, state_.perspective, state_.layers};
+  return {state_.theme,       chosen_scale_, state_.point_size, state_.visible_only, state_.robust,
+          state_.perspective, state_.layers, state_.map,        state_.widths};
 }
 
-void App::open(const std::filesystem::path& file) {
+void App::open(const std::filesystem::path& file, const ScanWishes& wishes) {
   journal_to_show_ = file.extension() == ".patchlab" ? std::optional(file) : std::nullopt;
-  workbench_.open(file);
+  asked_for_ = file;
+  workbench_.open(file, wishes);
+}
+
+// A reader that needs more than the file says names the flag of the command line; here the user is asked.
+void App::ask_what_is_missing(const Error& error) {
+  if (options_.asks && !memory_.scan_form.is_open() &&
+      error.message.find("--intrinsics") != std::string::npos)
+    memory_.scan_form.ask_camera(asked_for_, error.message.substr(0, error.message.find("; give")) + ".");
 }
 
 // All but what is open.
@@ -91,6 +102,7 @@ ViewCamera App::view() const {
 
 void App::toast(const std::string& text, bool is_error) {
   state_.toasts.push_back({text, is_error, ImGui::GetTime() + (is_error ? error_seconds : notice_seconds)});
+  state_.messages.push_back(state_.toasts.back());
 }
 
 void App::collect() {
@@ -98,6 +110,7 @@ void App::collect() {
   for (const Error& error : workbench_.take_errors()) {
     toast(error.message, true);
     errors_.push_back(error);
+    ask_what_is_missing(error);
   }
   for (const std::string& notice : workbench_.take_notices()) toast(notice, false);
   std::erase_if(state_.toasts, [](const Toast& shown) { return shown.until < ImGui::GetTime(); });
@@ -106,6 +119,8 @@ void App::collect() {
   state_.currency = workbench_.currency();
   state_.fit_message = workbench_.fit_message();
   state_.fit_milliseconds = workbench_.fit_milliseconds();
+  state_.fitted_one_in = workbench_.fitted_one_in();
+  state_.fit_runs = workbench_.fit_runs();
   state_.busy = workbench_.busy();
   if (workbench_.changes() != seen_changes_) show_new_document();
 }
@@ -126,6 +141,7 @@ void App::show_new_document() {
   if (!exists(document, state_.selected)) state_.selected = newest(document);
   platform_.set_title(document.scans.empty() ? "patchlab" : document.scans.back().name + " - patchlab");
   make_shades();
+  ask_for_unit();
   if (!document.scans.empty() && camera_of_ != document.scans.back().scan) set_up_camera();
 }
 
@@ -153,11 +169,52 @@ void App::make_shades() {
   }
 }
 
+// Once, of a scan that has just been opened.
+void App::ask_for_unit() {
+  if (!options_.asks || asked_for_.empty() || workbench_.document().scans.empty()) return;
+  const ScanEntry& entry = workbench_.document().scans.back();
+  if (!entry.scan || entry.scan->file != asked_for_) return;
+  for (const std::string& notice : entry.scan->notices) {
+    const std::size_t flag = notice.find(" Then say --unit");
+    if (flag != std::string::npos) memory_.scan_form.ask_unit(asked_for_, notice.substr(0, flag), entry.id);
+  }
+  asked_for_.clear();
+}
+
+void App::make_sigmas() {
+  if (state_.colours != PointColours::noise) return;
+  for (const ScanEntry& entry : workbench_.document().scans) {
+    if (!entry.scan || stage_.has_sigmas(entry)) continue;
+    stage_.set_sigmas(entry, nullptr);
+    workbench_.in_background([this, entry] {
+      return [this, entry, sigmas = noise_sigmas(*entry.scan, entry.noise)] {
+        stage_.set_sigmas(entry, sigmas);
+      };
+    });
+  }
+}
+
+void App::show_measured() {
+  state_.measured.reset();
+  if (measured_.empty()) return;
+  MeasuredLine line;
+  for (const MeasuredPoint& point : measured_) {
+    const Projected seen = project(view(), point.position);
+    if (seen.depth > view().near_plane) line.ends.emplace_back(seen.x, seen.y);
+  }
+  if (measured_.size() == 2) {
+    const MeasuredDistance length = distance(measured_[0], measured_[1]);
+    const Measured words = measured(length.metres, length.sigma, Dimension::length);
+    line.text = words.value + "  " + words.sigma;
+  }
+  state_.measured = line;
+}
+
 bool App::settled() const { return workbench_.idle() && !stage_.flying(); }
 
 double App::patience() const {
   if (stage_.flying()) return 0.0;
-  return state_.toasts.empty() && !state_.busy ? idle_patience : toast_patience;
+  return state_.toasts.empty() && !state_.busy && !state_.fit_runs ? idle_patience : toast_patience;
 }
 
 void App::frame() {
@@ -168,11 +225,15 @@ void App::frame() {
   const std::string style = std::to_string(static_cast<int>(state_.theme)) + " " + std::to_string(scale);
   if (style != styled_for_) apply_style(colours, scale);
   styled_for_ = style;
-  layout_ = make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()), scale);
-  collect();
-  handle_keys();
-  handle_pointer();
-  stage_.fly(ImGui::GetIO().DeltaTime);
+  const bool alone = picture_ && picture_->view_alone;
+  layout_ = make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()), scale,
+                        {state_.widths.tree, state_.widths.inspector, state_.side_panels && !alone, !alone});
+  if (!picture_) {
+    collect();
+    handle_keys();
+    handle_pointer();
+    stage_.fly(ImGui::GetIO().DeltaTime);
+  }
   draw();
 }
 
@@ -180,19 +241,31 @@ void App::draw() {
   const float scale = platform_.scale();
   stage_.update(workbench_.document(), state_, workbench_.changes(), scale);
   stage_.size_points(layout_.view.height, state_.point_size * scale);
+  make_sigmas();
   const ViewCamera camera = view();
   state_.notes = stage_.notes(camera);
   state_.drawing = lasso_.drawing();
   state_.contour = lasso_.contour(camera);
+  show_measured();
   const Rect& view = layout_.view;
-  renderer_.draw(stage_.scene(), camera,
+  Scene scene = stage_.scene();
+  if (ground_) {
+    scene.background_top = scene.background_bottom = *ground_;
+    scene.fades = false;
+  }
+  renderer_.draw(scene, camera,
                  {static_cast<int>(view.x), platform_.height() - static_cast<int>(view.bottom()),
                   static_cast<int>(view.width), static_cast<int>(view.height)});
   WidgetMap widgets;
   const Gui gui{theme(state_.theme), platform_.fonts(), scale, &widgets};
   Requests requests;
-  draw_panels({gui, workbench_.document(), state_, layout_}, memory_, requests);
+  const PanelInput in{gui, workbench_.document(), state_, layout_};
+  if (picture_ && picture_->view_alone)
+    draw_overlay(in);
+  else
+    draw_panels(in, memory_, requests);
   platform_.end_frame();
+  if (picture_) return;
   widgets_ = std::move(widgets);
   answer(requests);
 }

@@ -16,6 +16,7 @@
 #include "viewer/platform/platform.h"
 #include "viewer/render/renderer.h"
 #include "viewer/tool/lasso_tool.h"
+#include "viewer/tool/measure.h"
 #include "viewer/tool/navigation.h"
 
 namespace patchlab::viewer {
@@ -24,6 +25,15 @@ struct AppOptions {
   Settings settings;
   std::filesystem::path journals;  // folder for the journals of opened scans
   bool keep_journals = true;
+  bool asks = true;  // what a file does not say; false where nobody would answer
+};
+
+// A picture of the program as it stands.
+struct PictureOptions {
+  int width = 0, height = 0;  // px
+  float scale = 0.0f;         // of the interface; 0: as on the screen
+  bool view_alone = false;    // without the panels
+  bool transparent = false;   // of the view alone: without its ground
 };
 
 class App {
@@ -31,8 +41,9 @@ class App {
   // `platform` outlives the app.
   App(Platform& platform, Renderer renderer, AppOptions options);
 
-  void open(const std::filesystem::path& file);
+  void open(const std::filesystem::path& file, const ScanWishes& wishes = {});
   void frame();
+  Image picture(const PictureOptions& options);
   // Nothing moves and nothing runs in the background: the next frame would be the same.
   bool settled() const;
   bool wants_to_close() const { return close_; }
@@ -58,9 +69,17 @@ class App {
   void show_new_document();
   void set_up_camera();
   void make_shades();
+  void make_sigmas();
+  void ask_what_is_missing(const Error& error);
+  void ask_for_unit();
+  void show_measured();
   void find_earlier_work();
   void draw();
   void toast(const std::string& text, bool is_error);
+  // picture.cc
+  Image shot(std::optional<Rgba> ground);
+  void save_picture(const PictureRequest& request);
+
   double aspect() const;
   ViewCamera view() const;
 
@@ -71,8 +90,10 @@ class App {
   void double_click();
   void click();
   void select_surface();
+  void measure();
   struct Pointed {
     std::string scan;
+    std::uint32_t id;
     Eigen::Vector3d point;  // m
   };
   std::optional<Pointed> point_under_pointer() const;
@@ -81,12 +102,18 @@ class App {
   LassoView lasso_view() const;
   Eigen::Vector2d pointer() const;  // px of the view
 
+  // view_actions.cc
+  bool act_on_view(Action action);
+  bool turn_view(Action action);
+  void view_of_sensor();
+  void scale_interface(float scale);
+
   // requests.cc
   void answer(const Requests& requests);
   void act(Action action);
   bool choose(Action action);
   bool act_on_contour_and_fit(Action action);
-  bool act_on_view(Action action);
+  bool open_sheet(Action action);
   void act_on_document(Action action);
   void cancel();
   void keep();
@@ -96,8 +123,6 @@ class App {
   void rename_selected();
   void choose_surface(SurfaceRequest surface);
   void select(const std::string& id);
-  void view_of_sensor();
-  void scale_interface(float scale);
 
   Platform& platform_;
   Renderer renderer_;
@@ -111,6 +136,10 @@ class App {
   Navigation navigation_;
   std::optional<Eigen::Vector2d>
       pressed_;  // px, where the left button went down to navigate: a click if it stays there
+  std::vector<MeasuredPoint> measured_;
+  std::optional<PictureOptions> picture_;  // while one is taken: no input, no requests
+  std::optional<Rgba> ground_;             // behind the scene, in place of the theme's
+  std::filesystem::path asked_for_;        // opened last: what is missing is asked for it
   std::vector<Error> errors_;
   std::optional<std::filesystem::path> journal_to_show_;  // its camera is taken when it is open
   std::string styled_for_;                                // theme and scale that ImGui's style was made for

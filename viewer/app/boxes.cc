@@ -37,6 +37,9 @@ std::optional<Bounds> box_of(const Document& document) {
   for (const ScanEntry& entry : document.scans) {
     if (entry.visible && entry.scan) box.add(bounds(*entry.scan));
   }
+  for (const PatchEntry& entry : document.patches) {
+    if (entry.visible && entry.fit) box.add(box_of(document, entry.id));
+  }
   return box.result();
 }
 

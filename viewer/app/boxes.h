@@ -9,7 +9,8 @@
 
 namespace patchlab::viewer {
 
-// Around all visible scans; around one scan, region or patch. Nothing where there is nothing finite.
+// Around all visible scans and patches; around one scan, region or patch. Nothing where there is nothing
+// finite.
 std::optional<Bounds> box_of(const Document& document);
 std::optional<Bounds> box_of(const Document& document, const std::string& id);
 

@@ -70,7 +70,7 @@ void App::press(Button button) {
     if (left) pressed_ = pointer();
     return;
   }
-  if (state_.tool == Tool::surface) {
+  if (state_.tool == Tool::surface || state_.tool == Tool::measure) {
     pressed_ = pointer();
     return;
   }
@@ -86,6 +86,7 @@ void App::release(Button button) {
   const bool clicked = pressed_ && (pointer() - *pressed_).norm() < reach;
   if (clicked && state_.tool == Tool::orbit) click();
   if (clicked && state_.tool == Tool::surface) select_surface();
+  if (clicked && state_.tool == Tool::measure) measure();
   pressed_.reset();
   lasso(lasso_.release(pointer(), lasso_view()));
 }
@@ -107,7 +108,7 @@ std::optional<App::Pointed> App::point_under_pointer() const {
     const std::optional<std::uint32_t> point =
         pick_point(*entry.scan, view(), pointer(), pick_window * platform_.scale());
     if (!point) continue;
-    const Pointed at{entry.id, entry.scan->point(*point)};
+    const Pointed at{entry.id, *point, entry.scan->point(*point)};
     if (!nearest || depth(at) < depth(*nearest)) nearest = at;
   }
   return nearest;
@@ -121,6 +122,15 @@ void App::select_surface() {
   stroke.surface_at = pointed->point;
   stroke.scan = pointed->scan;
   workbench_.select(stroke);
+}
+
+// The second click ends a distance, the third begins another one.
+void App::measure() {
+  const std::optional<Pointed> pointed = point_under_pointer();
+  if (!pointed) return toast("There is no point under the pointer.", false);
+  if (measured_.size() == 2) measured_.clear();
+  const ScanEntry& scan = *find_scan(workbench_.document(), pointed->scan);
+  measured_.push_back({pointed->scan, pointed->point, point_covariance(scan, pointed->id)});
 }
 
 void App::click() {

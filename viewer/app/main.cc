@@ -42,8 +42,9 @@ int run_without_user(const ViewerOptions& options, App& app, Platform& platform)
   }
   if (options.screenshot) {
     app.clear_notices();
-    app.frame();
-    if (const Result<void> written = write_png(*options.screenshot, platform.read_image()); !written) {
+    const Image image = app.picture(
+        {platform.width(), platform.height(), platform.scale(), options.view_alone, options.transparent});
+    if (const Result<void> written = write_png(*options.screenshot, image); !written) {
       return fail(written.error());
     }
   }
@@ -84,7 +85,8 @@ int run(const ViewerOptions& options) {
   if (!renderer) return fail(renderer.error());
   // A picture of a journal leaves the journal as it is.
   const bool keeps_journals = !options.headless || options.replay;
-  App app(**platform, std::move(*renderer), {settings, default_journal_folder(), keeps_journals});
+  App app(**platform, std::move(*renderer),
+          {settings, default_journal_folder(), keeps_journals, !without_user || options.replay.has_value()});
   for (const std::filesystem::path& file : options.files) app.open(file);
   if (without_user) return run_without_user(options, app, **platform);
   return run_window(app, **platform, default_settings_file());

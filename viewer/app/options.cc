@@ -41,6 +41,12 @@ std::string check_together(const ViewerOptions& options) {
   if (!options.exports.empty() && !options.headless) {
     return "--export needs --headless: in the window, use File > Export patches.";
   }
+  if ((options.view_alone || options.transparent) && !options.screenshot) {
+    return "--view-alone and --transparent say how a picture is made: add --screenshot FILE.png.";
+  }
+  if (options.transparent && !options.view_alone) {
+    return "--transparent needs --view-alone: panels have a ground of their own.";
+  }
   return {};
 }
 
@@ -56,6 +62,8 @@ std::variant<ViewerOptions, Exit> parse_options(int argc, const char* const* arg
   cli.add_option("--screenshot", screenshot,
                  "write a picture of the program when everything is there, then quit")
       ->type_name("FILE.png");
+  cli.add_flag("--view-alone", options.view_alone, "picture the view without the panels around it");
+  cli.add_flag("--transparent", options.transparent, "picture without a ground (with --view-alone)");
   cli.add_option("--replay", replay, "do what a log of mouse and keys says (with --headless)")
       ->type_name("LOG");
   cli.add_option("--size", size, "of the window or picture in pixels")

@@ -16,8 +16,9 @@ struct ViewerOptions {
   std::optional<std::filesystem::path> replay, screenshot;
   int width = 1440, height = 900;
   bool headless = false;
-  float scale = 0.0f;                // 0: from the monitor
-  std::optional<ThemeChoice> theme;  // none: as it was left, or dark
+  bool view_alone = false, transparent = false;  // of the picture
+  float scale = 0.0f;                            // 0: from the monitor
+  std::optional<ThemeChoice> theme;              // none: as it was left, or dark
   std::vector<ExportRequest> exports;
 };
 

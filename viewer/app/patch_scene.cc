@@ -19,6 +19,9 @@ using Eigen::Vector3d;
 constexpr double ellipsoid_room = 0.22, band_room = 0.08, cone_room = 0.30 /* rad */, offset_room = 0.15;
 constexpr double axis_length = 0.62;
 constexpr int band_points = 128;
+constexpr int grid_half = 4, grid_samples = 24;  // lines each side of the middle, points each side on a line
+constexpr std::size_t most_point_ellipsoids = 500;
+constexpr double point_room = 0.7;  // of the distance from one shown point to the next
 constexpr float surface_alpha = 0.80f;
 
 double size_of(const Patch& patch) { return extent(boundary(patch)).maxCoeff(); }
@@ -113,7 +116,23 @@ std::string add_offsets(const Patch& patch, const Vector3d& origin, const Rgba& 
 
 }  // namespace
 
+Patch with_part(const Patch& patch, SigmaOf part) {
+  if (part == SigmaOf::both || !patch.covariance_local) return patch;
+  Patch alone = patch;
+  PatchMatrix& cov = *alone.covariance_local;
+  const int shape = patch.type->rotation_at(), pose = patch.type->size() - shape;
+  if (part == SigmaOf::shape) {
+    cov.rightCols(pose).setZero();
+    cov.bottomRows(pose).setZero();
+  } else {
+    cov.leftCols(shape).setZero();
+    cov.topRows(shape).setZero();
+  }
+  return alone;
+}
+
 int exaggeration(double size, double room) {
+  if (!(size > 0)) return 1;
   int chosen = 1;
   for (int decade = 1; decade <= 10'000; decade *= 10) {
     for (const int step : {1, 2, 5}) {
@@ -127,7 +146,8 @@ std::string exaggeration_words(int times, const char* larger) {
   return times == 1 ? "at true size" : "drawn " + std::to_string(times) + " times " + larger;
 }
 
-SurfaceMesh surface_item(const Patch& patch, const Vector3d& origin, const std::optional<Rgba>& flat) {
+SurfaceMesh surface_item(const Patch& patch, const Vector3d& origin, const std::optional<Rgba>& flat,
+                         ColourMap map) {
   const TriangleMesh mesh = surface_mesh(patch);
   SurfaceMesh surface;
   std::vector<double> sigma(mesh.n_vertices(), 0.0);
@@ -146,7 +166,7 @@ SurfaceMesh surface_item(const Patch& patch, const Vector3d& origin, const std::
     const auto& p = mesh.point(vertex);
     const auto& n = mesh.normal(vertex);
     const double part = (sigma[static_cast<std::size_t>(vertex.idx())] - least) / range;
-    const Rgba colour = flat ? *flat : with_alpha(sequential(part), surface_alpha);
+    const Rgba colour = flat ? *flat : with_alpha(sequential(part, map), surface_alpha);
     vertices.push_back({(Vector3d(p[0], p[1], p[2]) - origin).cast<float>(),
                         Vector3d(n[0], n[1], n[2]).cast<float>(), to_bytes(colour)});
   }
@@ -159,14 +179,66 @@ LineItem outline_item(const Patch& patch, const Vector3d& origin, const Rgba& co
   return {about(outline_curve(patch), origin), colour, width, true, true, 0.45f};
 }
 
+std::vector<LineItem> grid_items(const Patch& patch, const Vector3d& origin, const Rgba& colour,
+                                 float width) {
+  const Boundary outline = boundary(patch);
+  const Eigen::Vector2d half = extent(outline);
+  const Pose world = world_from_patch(patch);
+  const Vector3d k = k3(patch);
+  std::vector<LineItem> lines;
+  const auto end = [&](std::vector<Vector3d>& run) {
+    if (run.size() > 1) lines.push_back({about(run, origin), colour, width, false, true, 0.4f});
+    run.clear();
+  };
+  for (const int along : {0, 1}) {
+    for (int i = 1 - grid_half; i < grid_half; ++i) {
+      std::vector<Vector3d> run;
+      for (int j = -grid_samples; j <= grid_samples; ++j) {
+        Vector2d u;
+        u[along] = half[along] * j / grid_samples;
+        u[1 - along] = half[1 - along] * i / grid_half;
+        if (contains(outline, u))
+          run.push_back(apply(world, surface_point(u, k)));
+        else
+          end(run);
+      }
+      end(run);
+    }
+  }
+  return lines;
+}
+
+PatchScene point_ellipsoids(const ScanEntry& entry, const RegionEntry& region, double apart,
+                            const Vector3d& origin, const Theme& theme) {
+  PatchScene scene;
+  const std::size_t step = 1 + region.points->size() / most_point_ellipsoids;
+  std::vector<Ellipsoid> shapes;
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < region.points->size(); i += step) {
+    const std::uint32_t id = (*region.points)[i];
+    if (!entry.scan->finite[id]) continue;
+    shapes.push_back(ellipsoid(entry.scan->point(id), point_covariance(entry, id), shown_probability));
+    lengths.push_back(shapes.back().half_lengths[0]);
+  }
+  if (shapes.empty()) return scene;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  const int times = exaggeration(*middle, point_room * apart * std::sqrt(static_cast<double>(step)));
+  scene.meshes.push_back(ellipsoids_mesh(shapes, times, origin, with_alpha(theme.point_selected, 1.0f)));
+  scene.notes.push_back("95 % ellipsoids of " + std::to_string(shapes.size()) + " points, " +
+                        exaggeration_words(times, "larger"));
+  return scene;
+}
+
 PatchScene chosen_patch(const Patch& patch, const Vector3d& origin, const Layers& layers, const Theme& theme,
                         const Rgba& colour, float scale) {
   PatchScene scene;
   scene.lines.push_back(outline_item(patch, origin, colour, 3.0f * scale));
   if (layers.axes) add_axes(patch, origin, theme, scale, scene);
   if (!patch.covariance_local) return scene;
-  if (layers.ellipsoid) add_ellipsoid(patch, origin, theme, scale, scene);
-  if (layers.cone) scene.notes.push_back(add_cone(patch, origin, theme, scale, scene));
+  const bool pose_is_known = patch.covariance_local->bottomRightCorner<3, 3>().isZero(0);
+  if (layers.ellipsoid && !pose_is_known) add_ellipsoid(patch, origin, theme, scale, scene);
+  if (layers.cone && !pose_is_known) scene.notes.push_back(add_cone(patch, origin, theme, scale, scene));
   if (layers.offsets)
     scene.notes.push_back(add_offsets(patch, origin, with_alpha(theme.accent, 0.30f), scene));
   if (layers.band) scene.notes.push_back(add_band(patch, origin, colour, scene));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/patch/patch.h"
+#include "engine/project/document.h"
 #include "viewer/panel/view_state.h"
 #include "viewer/render/scene.h"
 
@@ -20,18 +21,22 @@ int exaggeration(double size, double room);
 // "drawn 10 times larger", or "at true size".
 std::string exaggeration_words(int times, const char* larger);
 
+// The patch with that part of its covariance alone.
+Patch with_part(const Patch& patch, SigmaOf part);
+
 // The surface with one colour a vertex, made once a fit.
 struct SurfaceMesh {
   MeshItem item;
   std::optional<Eigen::Vector2d> height_sigma;  // least and largest, m; none for a patch without covariance
 };
 // By height sigma, or all in `flat`.
-SurfaceMesh surface_item(const Patch& patch, const Eigen::Vector3d& origin, const std::optional<Rgba>& flat);
+SurfaceMesh surface_item(const Patch& patch, const Eigen::Vector3d& origin, const std::optional<Rgba>& flat,
+                         ColourMap map = ColourMap::viridis);
 
 // Anchors of text: the tips of the axes.
 struct AxisTip {
   Eigen::Vector3d position;  // m, world
-  const char* text;
+  std::string text;
   Rgba colour;
 };
 
@@ -42,6 +47,12 @@ struct PatchScene {
   std::vector<std::string> notes;
 };
 LineItem outline_item(const Patch& patch, const Eigen::Vector3d& origin, const Rgba& colour, float width);
+// Lines of equal x and of equal y of its local axes.
+std::vector<LineItem> grid_items(const Patch& patch, const Eigen::Vector3d& origin, const Rgba& colour,
+                                 float width);
+// 95 % ellipsoids of some points of a region, `apart` (m) from each other in the middle.
+PatchScene point_ellipsoids(const ScanEntry& scan, const RegionEntry& region, double apart,
+                            const Eigen::Vector3d& origin, const Theme& theme);
 // Everything of the chosen patch but its surface. Line widths are in pixels at `scale`.
 PatchScene chosen_patch(const Patch& patch, const Eigen::Vector3d& origin, const Layers& layers,
                         const Theme& theme, const Rgba& colour, float scale);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "viewer/panel/colours.h"
 
@@ -11,9 +12,7 @@ namespace {
 
 constexpr double residual_reach = 3.0;  // standard deviations at the ends of the residual colours
 
-constexpr std::size_t most_asked = 20'000;  // points, for their heights
-constexpr double beyond = 0.01;             // share of the points below and above what is coloured apart
-constexpr std::size_t shades_of_height = 256;
+constexpr std::size_t steps_of_scale = 256;
 
 void paint_shades(const PointScene& in, const Shades& shades, std::vector<Rgba8>& colours) {
   std::array<Rgba8, 256> by_shade;
@@ -29,15 +28,17 @@ void paint_photo(const Scan& scan, std::vector<Rgba8>& colours) {
   });
 }
 
-void paint_heights(const Scan& scan, const HeightRange& heights, std::vector<Rgba8>& colours) {
-  std::array<Rgba8, shades_of_height> by_height;
-  for (std::size_t i = 0; i < by_height.size(); ++i)
-    by_height[i] = to_bytes(sequential(static_cast<double>(i) / (shades_of_height - 1)));
-  const double scale = (shades_of_height - 1) / std::max(heights.high - heights.low, 1e-9);
+// Points without a number stay as they are.
+void paint_scale(const PointScene& in, const ScanEntry& entry, std::vector<Rgba8>& colours) {
+  std::array<Rgba8, steps_of_scale> by_step;
+  for (std::size_t i = 0; i < by_step.size(); ++i)
+    by_step[i] = to_bytes(sequential(static_cast<double>(i) / (steps_of_scale - 1), in.state.map));
+  const double steps = (steps_of_scale - 1) / std::max(in.scale->high - in.scale->low, 1e-9);
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    if (!scan.finite[i]) continue;
-    const double at = (heights.up.dot(scan.point(i)) - heights.low) * scale;
-    colours[i] = by_height[static_cast<std::size_t>(std::clamp(at, 0.0, shades_of_height - 1.0) + 0.5)];
+    const double value = entry.scan->finite[i] ? in.scale->value(entry, i) : std::nan("");
+    if (!std::isfinite(value)) continue;
+    const double at = std::clamp((value - in.scale->low) * steps, 0.0, steps_of_scale - 1.0);
+    colours[i] = by_step[static_cast<std::size_t>(at + 0.5)];
   }
 }
 
@@ -53,11 +54,13 @@ void paint_labels(const Scan& scan, std::vector<Rgba8>& colours) {
   }
 }
 
-void paint_base(const PointScene& in, const Scan& scan, const Shades& shades, std::vector<Rgba8>& colours) {
+void paint_base(const PointScene& in, const ScanEntry& entry, const Shades& shades,
+                std::vector<Rgba8>& colours) {
+  const Scan& scan = *entry.scan;
   paint_shades(in, shades, colours);
   if (in.state.colours == PointColours::photo) paint_photo(scan, colours);
   if (in.state.colours == PointColours::label) paint_labels(scan, colours);
-  if (in.heights) paint_heights(scan, *in.heights, colours);
+  if (in.scale) paint_scale(in, entry, colours);
 }
 
 void paint(const std::shared_ptr<const std::vector<std::uint32_t>>& ids, const Rgba8& colour,
@@ -95,21 +98,6 @@ void paint_outliers(const PatchEntry& entry, const Rgba& colour, std::vector<Rgb
 
 }  // namespace
 
-std::optional<HeightRange> height_range(const Document& document, const Eigen::Vector3d& up) {
-  std::vector<double> heights;
-  for (const ScanEntry& entry : document.scans) {
-    if (!entry.visible || !entry.scan) continue;
-    const Scan& scan = *entry.scan;
-    for (std::size_t i = 0; i < scan.size(); i += 1 + scan.size() / most_asked) {
-      if (scan.finite[i]) heights.push_back(up.dot(scan.point(i)));
-    }
-  }
-  if (heights.empty()) return std::nullopt;
-  std::sort(heights.begin(), heights.end());
-  const auto few = static_cast<std::size_t>(beyond * static_cast<double>(heights.size()));
-  return HeightRange{up, heights[few], heights[heights.size() - 1 - few]};
-}
-
 const RegionEntry* lit_region(const Document& document, const std::string& selected) {
   const PatchEntry* patch = find_patch(document, selected);
   return find_region(document, patch ? patch->region : selected);
@@ -117,7 +105,7 @@ const RegionEntry* lit_region(const Document& document, const std::string& selec
 
 std::vector<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, const Shades& shades) {
   std::vector<Rgba8> colours(entry.scan->size());
-  paint_base(in, *entry.scan, shades, colours);
+  paint_base(in, entry, shades, colours);
   const RegionEntry* lit = lit_region(in.document, in.state.selected);
   for (const RegionEntry& region : in.document.regions) {
     if (region.scan != entry.id || !region.visible || !region.points || &region == lit) continue;
@@ -142,7 +130,9 @@ std::optional<PointsItem> chosen_points(const PointScene& in, const ScanEntry& e
   auto positions = std::make_shared<std::vector<Eigen::Vector3f>>();
   auto own_colours = std::make_shared<std::vector<Rgba8>>();
   const Eigen::Vector3f moved = (entry.scan->origin - origin).cast<float>();
+  const Rgba8 outlier = to_bytes(in.theme.point_outlier);
   for (const std::uint32_t id : *lit->points) {
+    if (colours[id] == outlier) continue;
     positions->push_back(entry.scan->positions[id] + moved);
     own_colours->push_back(colours[id]);
     colours[id][3] = 0;

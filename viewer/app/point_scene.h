@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/project/document.h"
+#include "viewer/app/point_scale.h"
 #include "viewer/panel/view_state.h"
 #include "viewer/render/scene.h"
 
@@ -17,18 +18,11 @@ namespace patchlab::viewer {
 // The shades of a scan, made once (viewer/app/point_shades.h) and shared.
 using Shades = std::shared_ptr<const std::vector<std::uint8_t>>;
 
-// Heights along the unit vector `up`, m: nearly all points that are shown lie between the two.
-struct HeightRange {
-  Eigen::Vector3d up;
-  double low, high;
-};
-std::optional<HeightRange> height_range(const Document& document, const Eigen::Vector3d& up);
-
 struct PointScene {
   const Document& document;
   const ViewState& state;
   const Theme& theme;
-  std::optional<HeightRange> heights = {};  // where points are coloured by them
+  std::optional<PointScale> scale = {};  // where points are coloured by a number
 };
 
 // Region whose points are lit: the selected one, or that of the selected patch; nullptr where there is none.
@@ -38,7 +32,8 @@ const RegionEntry* lit_region(const Document& document, const std::string& selec
 std::vector<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, const Shades& shades);
 
 // The points of the chosen patch as an item of their own, where its surface is drawn: they must not hide it.
-// They are taken out of `colours`. Nothing where no such patch is of this scan.
+// They are taken out of `colours`, but for outliers, which must be seen. Nothing where no such patch is of
+// this scan.
 std::optional<PointsItem> chosen_points(const PointScene& in, const ScanEntry& entry,
                                         const Eigen::Vector3d& origin, std::vector<Rgba8>& colours);
 

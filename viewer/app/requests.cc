@@ -6,9 +6,6 @@ namespace patchlab::viewer {
 
 namespace {
 
-constexpr float least_scale = 0.5f, largest_scale = 4.0f, scale_step = 1.1f;
-constexpr float least_point = 1.0f, largest_point = 12.0f, point_step = 0.5f;
-
 // The folder that a file dialog starts in.
 std::filesystem::path folder_for(const Document& document, const FileDialog& files) {
   if (!files.folder().empty()) return files.folder();
@@ -33,14 +30,21 @@ void App::answer(const Requests& requests) {
   if (requests.surface) choose_surface(*requests.surface);
   if (requests.noise) workbench_.set_noise(requests.noise->scan, requests.noise->noise);
   if (requests.history_position) workbench_.go_to(*requests.history_position);
-  if (requests.open) open(*requests.open);
+  if (requests.open) {
+    if (!requests.open->instead_of.empty()) workbench_.run(Delete{requests.open->instead_of});
+    open(requests.open->file, requests.open->wishes);
+  }
+  if (requests.picture) save_picture(*requests.picture);
+  if (requests.widths) state_.widths = *requests.widths;
   if (requests.save_journal) workbench_.save_journal(*requests.save_journal);
   if (requests.export_to) workbench_.write_patches(*requests.export_to);
   if (requests.cancel_work) workbench_.cancel_work();
 }
 
 void App::act(Action action) {
-  if (choose(action) || act_on_contour_and_fit(action) || act_on_view(action)) return;
+  if (choose(action) || act_on_contour_and_fit(action) || act_on_view(action) || turn_view(action) ||
+      open_sheet(action))
+    return;
   act_on_document(action);
 }
 
@@ -56,6 +60,8 @@ bool App::choose(Action action) {
     choose_surface(state_.surface);
   } else if (const auto how = reshaping_of(action))
     workbench_.reshape(*how);
+  else if (const auto part = sigma_of(action))
+    state_.sigma_of = *part;
   else if (const auto layer = layer_of(action))
     state_.layers.*layer = !(state_.layers.*layer);
   else if (const auto colours = colours_of(action)) {
@@ -90,45 +96,20 @@ bool App::act_on_contour_and_fit(Action action) {
   }
 }
 
-bool App::act_on_view(Action action) {
-  const Document& document = workbench_.document();
-  const auto point_size = [this](float step) {
-    state_.point_size = std::clamp(state_.point_size + step, least_point, largest_point);
-  };
-  switch (action) {
-    case Action::home:
-      stage_.frame_all(document, aspect());
-      return true;
-    case Action::frame_selection:
-      stage_.frame(document, state_.selected, aspect());
-      return true;
-    case Action::sensor_view:
-      view_of_sensor();
-      return true;
-    case Action::perspective:
-      stage_.camera.perspective = state_.perspective = !state_.perspective;
-      return true;
-    case Action::larger_points:
-      point_size(point_step);
-      return true;
-    case Action::smaller_points:
-      point_size(-point_step);
-      return true;
-    case Action::theme:
-      state_.theme = state_.theme == ThemeChoice::dark ? ThemeChoice::light : ThemeChoice::dark;
-      return true;
-    case Action::larger_interface:
-      scale_interface(platform_.scale() * scale_step);
-      return true;
-    case Action::smaller_interface:
-      scale_interface(platform_.scale() / scale_step);
-      return true;
-    case Action::normal_interface:
-      scale_interface(1.0f);
-      return true;
-    default:
-      return false;
+bool App::open_sheet(Action action) {
+  constexpr struct {
+    Action action;
+    bool PanelMemory::*open;
+  } sheets[] = {{Action::noise, &PanelMemory::choose_noise},
+                {Action::help, &PanelMemory::help},
+                {Action::palette, &PanelMemory::palette},
+                {Action::messages, &PanelMemory::messages}};
+  for (const auto& sheet : sheets) {
+    if (sheet.action != action) continue;
+    memory_.*sheet.open = true;
+    return true;
   }
+  return false;
 }
 
 void App::act_on_document(Action action) {
@@ -144,6 +125,10 @@ void App::act_on_document(Action action) {
     case Action::export_patches:
       memory_.files.show(FilePurpose::export_patches, folder_for(document, memory_.files),
                          stem_of(document) + ".json");
+      break;
+    case Action::save_picture:
+      memory_.files.show(FilePurpose::save_picture, folder_for(document, memory_.files),
+                         stem_of(document) + ".png");
       break;
     case Action::quit:
       close_ = true;
@@ -166,12 +151,6 @@ void App::act_on_document(Action action) {
     case Action::rename:
       rename_selected();
       break;
-    case Action::noise:
-      memory_.choose_noise = true;
-      break;
-    case Action::help:
-      memory_.help = true;
-      break;
     default:
       break;
   }
@@ -187,6 +166,7 @@ void App::cancel() {
     state_.selected = shown;
     return;
   }
+  if (!measured_.empty()) return measured_.clear();
   state_.tool = Tool::orbit;
 }
 
@@ -243,15 +223,6 @@ void App::choose_surface(SurfaceRequest surface) {
 void App::select(const std::string& id) {
   state_.selected = id;
   workbench_.focus(id);
-}
-
-void App::view_of_sensor() {
-  const std::vector<ScanEntry>& scans = workbench_.document().scans;
-  if (!scans.empty() && scans.back().scan) stage_.view_of_sensor(*scans.back().scan, aspect());
-}
-
-void App::scale_interface(float scale) {
-  wanted_scale_ = chosen_scale_ = std::clamp(scale, least_scale, largest_scale);
 }
 
 }  // namespace patchlab::viewer

@@ -21,9 +21,10 @@ struct Switch {
 constexpr Switch<Settings> kSwitches[] = {{"visible_only", &Settings::visible_only},
                                           {"reject_outliers", &Settings::robust},
                                           {"perspective", &Settings::perspective}};
-constexpr Switch<Layers> kLayerSwitches[] = {{"surface", &Layers::surface}, {"ellipsoid", &Layers::ellipsoid},
-                                             {"cone", &Layers::cone},       {"band", &Layers::band},
-                                             {"axes", &Layers::axes},       {"offsets", &Layers::offsets}};
+constexpr Switch<Layers> kLayerSwitches[] = {
+    {"surface", &Layers::surface}, {"ellipsoid", &Layers::ellipsoid}, {"cone", &Layers::cone},
+    {"band", &Layers::band},       {"axes", &Layers::axes},           {"offsets", &Layers::offsets},
+    {"points", &Layers::points},   {"grid", &Layers::grid},           {"names", &Layers::names}};
 
 template <class Owner, std::size_t n>
 void read_switches(const ordered_json& object, const Switch<Owner> (&switches)[n], Owner& owner) {
@@ -58,6 +59,9 @@ Settings read_settings(const fs::path& file) {
   if (object.value("theme", ordered_json()) == "light") settings.theme = ThemeChoice::light;
   read_number(object, "scale", 0.5f, 4.0f, settings.scale);
   read_number(object, "point_size", 1.0f, 12.0f, settings.point_size);
+  if (object.value("colour_map", ordered_json()) == "cividis") settings.map = ColourMap::cividis;
+  read_number(object, "tree_width", 160.0f, 720.0f, settings.widths.tree);
+  read_number(object, "inspector_width", 160.0f, 720.0f, settings.widths.inspector);
   read_switches(object, kSwitches, settings);
   if (const auto layers = object.find("layers"); layers != object.end() && layers->is_object()) {
     read_switches(*layers, kLayerSwitches, settings.layers);
@@ -68,7 +72,10 @@ Settings read_settings(const fs::path& file) {
 Result<void> write_settings(const fs::path& file, const Settings& settings) {
   ordered_json object = {{"theme", settings.theme == ThemeChoice::light ? "light" : "dark"},
                          {"scale", settings.scale},
-                         {"point_size", settings.point_size}};
+                         {"point_size", settings.point_size},
+                         {"colour_map", settings.map == ColourMap::cividis ? "cividis" : "viridis"},
+                         {"tree_width", settings.widths.tree},
+                         {"inspector_width", settings.widths.inspector}};
   for (const auto& one : kSwitches) object[one.name] = settings.*one.value;
   for (const auto& one : kLayerSwitches) object["layers"][one.name] = settings.layers.*one.value;
   std::error_code error;

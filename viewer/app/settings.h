@@ -16,6 +16,8 @@ struct Settings {
   float point_size = 2.0f;
   bool visible_only = true, robust = true, perspective = true;
   Layers layers;
+  ColourMap map = ColourMap::viridis;
+  PanelWidths widths;
   bool operator==(const Settings&) const = default;
 };
 

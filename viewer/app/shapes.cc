@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr std::uint32_t meridians = 48, parallels = 24, rim_points = 64;
+constexpr std::uint32_t rim_points = 64;
 constexpr double full_turn = 2 * std::numbers::pi;
 
 MeshItem item(std::vector<MeshVertex> vertices, std::vector<std::uint32_t> triangles, bool lit) {
@@ -24,6 +24,34 @@ MeshItem item(std::vector<MeshVertex> vertices, std::vector<std::uint32_t> trian
 // Half lengths that keep a normal where the ellipsoid is flat.
 Vector3d kept_thick(const Vector3d& half_lengths) {
   return half_lengths.cwiseMax(1e-3 * std::max(half_lengths.maxCoeff(), 1e-9));
+}
+
+struct Triangles {
+  std::vector<MeshVertex> vertices;
+  std::vector<std::uint32_t> triangles;
+};
+struct Grid {
+  std::uint32_t meridians, parallels;
+};
+
+void add_ellipsoid(const Ellipsoid& ellipsoid, double times, const Vector3d& origin, const Rgba& colour,
+                   const Grid& grid, Triangles& mesh) {
+  const Vector3d half = kept_thick(times * ellipsoid.half_lengths);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (std::uint32_t i = 0; i <= grid.parallels; ++i) {
+    const double polar = std::numbers::pi * i / grid.parallels;
+    for (std::uint32_t j = 0; j <= grid.meridians; ++j) {
+      const double around = full_turn * j / grid.meridians;
+      const Vector3d unit(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
+                          std::cos(polar));
+      const Vector3d normal = (ellipsoid.axes * unit.cwiseQuotient(half)).normalized();
+      const Vector3d point = ellipsoid.centre + ellipsoid.axes * unit.cwiseProduct(half) - origin;
+      mesh.vertices.push_back({point.cast<float>(), normal.cast<float>(), to_bytes(colour)});
+      if (i == grid.parallels || j == grid.meridians) continue;
+      const std::uint32_t a = first + i * (grid.meridians + 1) + j, b = a + grid.meridians + 1;
+      mesh.triangles.insert(mesh.triangles.end(), {a, b, a + 1, a + 1, b, b + 1});
+    }
+  }
 }
 
 }  // namespace
@@ -37,24 +65,16 @@ std::vector<Vector3f> about(const std::vector<Vector3d>& points, const Vector3d&
 
 MeshItem ellipsoid_mesh(const Ellipsoid& ellipsoid, double times, const Vector3d& origin,
                         const Rgba& colour) {
-  const Vector3d half = kept_thick(times * ellipsoid.half_lengths);
-  std::vector<MeshVertex> vertices;
-  std::vector<std::uint32_t> triangles;
-  for (std::uint32_t i = 0; i <= parallels; ++i) {
-    const double polar = std::numbers::pi * i / parallels;
-    for (std::uint32_t j = 0; j <= meridians; ++j) {
-      const double around = full_turn * j / meridians;
-      const Vector3d unit(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
-                          std::cos(polar));
-      const Vector3d normal = (ellipsoid.axes * unit.cwiseQuotient(half)).normalized();
-      const Vector3d point = ellipsoid.centre + ellipsoid.axes * unit.cwiseProduct(half) - origin;
-      vertices.push_back({point.cast<float>(), normal.cast<float>(), to_bytes(colour)});
-      if (i == parallels || j == meridians) continue;
-      const std::uint32_t a = i * (meridians + 1) + j, b = a + meridians + 1;
-      triangles.insert(triangles.end(), {a, b, a + 1, a + 1, b, b + 1});
-    }
-  }
-  return item(std::move(vertices), std::move(triangles), true);
+  Triangles mesh;
+  add_ellipsoid(ellipsoid, times, origin, colour, {48, 24}, mesh);
+  return item(std::move(mesh.vertices), std::move(mesh.triangles), true);
+}
+
+MeshItem ellipsoids_mesh(const std::vector<Ellipsoid>& ellipsoids, double times, const Vector3d& origin,
+                         const Rgba& colour) {
+  Triangles mesh;
+  for (const Ellipsoid& each : ellipsoids) add_ellipsoid(each, times, origin, colour, {12, 7}, mesh);
+  return item(std::move(mesh.vertices), std::move(mesh.triangles), true);
 }
 
 std::vector<LineItem> ellipsoid_rims(const Ellipsoid& ellipsoid, double times, const Vector3d& origin,

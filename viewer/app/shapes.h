@@ -12,6 +12,9 @@ namespace patchlab::viewer {
 // The ellipsoid, `times` larger. A flat one is drawn flat.
 MeshItem ellipsoid_mesh(const Ellipsoid& ellipsoid, double times, const Eigen::Vector3d& origin,
                         const Rgba& colour);
+// Many of them as one mesh, coarser each.
+MeshItem ellipsoids_mesh(const std::vector<Ellipsoid>& ellipsoids, double times,
+                         const Eigen::Vector3d& origin, const Rgba& colour);
 // Its three principal ellipses.
 std::vector<LineItem> ellipsoid_rims(const Ellipsoid& ellipsoid, double times, const Eigen::Vector3d& origin,
                                      const Rgba& colour, float width);

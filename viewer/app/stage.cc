@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "viewer/app/boxes.h"
 #include "viewer/panel/colours.h"
@@ -14,10 +15,20 @@ namespace {
 // Of the distance between points, how much a point covers; and how much larger than asked for it may get.
 constexpr double point_share = 1.25;
 constexpr double chosen_share = 0.15;  // of that, where a surface is to be seen between them
+constexpr double chosen_apart = 3.0;   // of the size of a point, from one such to the next
 constexpr double set_back = 2.5;  // of that distance: what noise alone puts before a patch does not hide it
 constexpr float most_larger = 6.0f;
 constexpr double flight_seconds = 0.22;
 constexpr double sensor_fov = 0.80;  // rad, where the scan does not say its own
+
+// The least prime with which points of a surface, `ratio` times too close, are far enough apart.
+std::size_t every(double ratio) {
+  constexpr std::size_t primes[] = {1, 2, 3, 5, 7, 11, 17, 23, 31, 43, 61, 89, 127, 181, 257, 367, 521};
+  const double wanted = ratio * ratio;
+  for (const std::size_t prime : primes)
+    if (static_cast<double>(prime) >= wanted) return prime;
+  return primes[std::size(primes) - 1];
+}
 
 double fov_of(const Scan& scan) {
   if (!scan.intrinsics || scan.height < 2) return sensor_fov;
@@ -27,8 +38,8 @@ double fov_of(const Scan& scan) {
 }  // namespace
 
 void Stage::update(const Document& document, const ViewState& state, std::uint64_t generation, float scale) {
-  const Drawn wanted{generation,   state.selected, state.theme,  state.colours,
-                     state.layers, scale,          shades_made_, target().up};
+  const Drawn wanted{generation, state.selected, state.theme,    state.colours, state.layers,
+                     scale,      state.map,      state.sigma_of, shades_made_,  target().up};
   if (drawn_ == wanted) return;
   drawn_ = wanted;
   const Theme colours = theme(state.theme);
@@ -40,15 +51,20 @@ void Stage::update(const Document& document, const ViewState& state, std::uint64
   if (!document.scans.empty() && document.scans.front().scan)
     scene_.origin = document.scans.front().scan->origin;
   PointScene in{document, state, colours};
-  if (state.colours == PointColours::height) in.heights = height_range(document, wanted.up);
-  if (in.heights) notes_.point_heights = Eigen::Vector2d(in.heights->low, in.heights->high);
+  if (state.colours == PointColours::height) in.scale = height_scale(document, wanted.up);
+  if (state.colours == PointColours::noise) {
+    in.scale = noise_scale(document, [this](const ScanEntry& entry) {
+      return has_sigmas(entry) ? sigmas_.at(entry.scan).sigmas : nullptr;
+    });
+  }
+  if (in.scale) notes_.points = {in.scale->title, {in.scale->low, in.scale->high}};
   add_points(in);
   add_patches(in, scale);
   notes_.residual_colours = state.colours == PointColours::residual && find_patch(document, state.selected);
 }
 
 void Stage::add_points(const PointScene& in) {
-  drawn_spacings_.clear();
+  drawn_points_.clear();
   for (const ScanEntry& entry : in.document.scans) {
     if (!entry.visible || !entry.scan) continue;
     const std::shared_ptr<const Scan>& scan = entry.scan;
@@ -58,11 +74,12 @@ void Stage::add_points(const PointScene& in) {
     scene_.points.push_back({point_positions(entry.scan, scene_.origin),
                              std::make_shared<const std::vector<Rgba8>>(std::move(colours))});
     if (!spacings_.contains(scan)) spacings_[scan] = point_spacing(*scan);
-    drawn_spacings_.push_back(spacings_[scan]);
+    drawn_points_.push_back({spacings_[scan], point_share, false});
     scene_.points.back().set_back = static_cast<float>(set_back * spacings_[scan]);
     if (!chosen) continue;
     scene_.points.push_back(*chosen);
-    drawn_spacings_.push_back(chosen_share * spacings_[scan]);
+    const bool thinned = in.state.colours != PointColours::residual;
+    drawn_points_.push_back({spacings_[scan], chosen_share * point_share, thinned});
   }
 }
 
@@ -72,8 +89,10 @@ double Stage::metres_per_pixel(double viewport_height) const {
 
 void Stage::size_points(double viewport_height, float least) {
   for (std::size_t i = 0; i < scene_.points.size(); ++i) {
-    const double apart = drawn_spacings_[i] / metres_per_pixel(viewport_height);
-    scene_.points[i].size = std::clamp(static_cast<float>(point_share * apart), least, most_larger * least);
+    const double apart = drawn_points_[i].apart / metres_per_pixel(viewport_height);
+    const auto suits = static_cast<float>(drawn_points_[i].share * apart);
+    scene_.points[i].size = std::clamp(suits, least, most_larger * least);
+    if (drawn_points_[i].thinned) scene_.points[i].step = every(chosen_apart * least / apart);
   }
 }
 
@@ -84,28 +103,54 @@ void Stage::add_patches(const PointScene& in, float scale) {
     const Rgba colour = category_colour(entry.region);
     if (in.state.layers.surface) {
       const SurfaceMesh& surface =
-          surface_of(entry, chosen ? std::nullopt : std::optional(with_alpha(colour, 0.45f)));
+          surface_of(entry, chosen ? std::nullopt : std::optional(with_alpha(colour, 0.45f)), in.state);
       scene_.meshes.push_back(surface.item);
       if (chosen) notes_.height_sigma = surface.height_sigma;
     }
-    if (!chosen) {
+    if (in.state.layers.grid)
+      std::ranges::move(grid_items(entry.fit->patch, scene_.origin, with_alpha(in.theme.text, 0.55f), scale),
+                        std::back_inserter(scene_.lines));
+    if (in.state.layers.names) tips_.push_back({centre(entry.fit->patch), entry.name, in.theme.text});
+    if (chosen)
+      add_chosen(in, entry, colour, scale);
+    else
       scene_.lines.push_back(outline_item(entry.fit->patch, scene_.origin, colour, 2.0f * scale));
-      continue;
-    }
-    PatchScene patch =
-        chosen_patch(entry.fit->patch, scene_.origin, in.state.layers, in.theme, colour, scale);
-    scene_.meshes.insert(scene_.meshes.end(), patch.meshes.begin(), patch.meshes.end());
-    scene_.lines.insert(scene_.lines.end(), patch.lines.begin(), patch.lines.end());
-    tips_ = std::move(patch.tips);
-    notes_.lines = std::move(patch.notes);
   }
+  if (in.state.layers.points) add_point_ellipsoids(in);
 }
 
-const SurfaceMesh& Stage::surface_of(const PatchEntry& entry, const std::optional<Rgba>& flat) {
+void Stage::add_chosen(const PointScene& in, const PatchEntry& entry, const Rgba& colour, float scale) {
+  const Patch patch = with_part(entry.fit->patch, in.state.sigma_of);
+  take(chosen_patch(patch, scene_.origin, in.state.layers, in.theme, colour, scale));
+  if (notes_.lines.empty() || in.state.sigma_of == SigmaOf::both) return;
+  notes_.lines.emplace_back(in.state.sigma_of == SigmaOf::shape
+                                ? "of the shape alone, the pose taken as known"
+                                : "of the pose alone, the shape taken as known");
+}
+
+void Stage::add_point_ellipsoids(const PointScene& in) {
+  const RegionEntry* region = lit_region(in.document, in.state.selected);
+  const ScanEntry* scan = region ? find_scan(in.document, region->scan) : nullptr;
+  if (!scan || !scan->scan || !region->points) return;
+  take(point_ellipsoids(*scan, *region, spacings_[scan->scan], scene_.origin, in.theme));
+}
+
+void Stage::take(PatchScene scene) {
+  std::ranges::move(scene.meshes, std::back_inserter(scene_.meshes));
+  std::ranges::move(scene.lines, std::back_inserter(scene_.lines));
+  std::ranges::move(scene.tips, std::back_inserter(tips_));
+  std::ranges::move(scene.notes, std::back_inserter(notes_.lines));
+}
+
+const SurfaceMesh& Stage::surface_of(const PatchEntry& entry, const std::optional<Rgba>& flat,
+                                     const ViewState& state) {
   KnownSurface& known = surfaces_[entry.id];
   const Rgba wanted = flat.value_or(Rgba{});
-  if (known.fit != entry.fit || known.coloured != !flat || known.flat != wanted) {
-    known = {entry.fit, !flat, wanted, surface_item(entry.fit->patch, scene_.origin, flat)};
+  if (known.fit != entry.fit || known.coloured != !flat || known.flat != wanted || known.map != state.map ||
+      known.sigma_of != state.sigma_of) {
+    const Patch patch = with_part(entry.fit->patch, state.sigma_of);
+    known = {entry.fit, !flat,          wanted,
+             state.map, state.sigma_of, surface_item(patch, scene_.origin, flat, state.map)};
   }
   return known.mesh;
 }
@@ -123,6 +168,23 @@ SceneNotes Stage::notes(const ViewCamera& view) const {
 void Stage::set_shades(const std::shared_ptr<const Scan>& scan, Shades shades) {
   shades_[scan] = std::move(shades);
   ++shades_made_;
+}
+
+void Stage::set_sigmas(const ScanEntry& entry, Sigmas sigmas) {
+  sigmas_[entry.scan] = {entry.noise.specification, std::move(sigmas)};
+  ++shades_made_;
+}
+
+bool Stage::has_sigmas(const ScanEntry& entry) const {
+  const auto known = sigmas_.find(entry.scan);
+  return known != sigmas_.end() && known->second.noise == entry.noise.specification;
+}
+
+void Stage::look_from(double azimuth, double elevation) {
+  OrbitCamera to = target();
+  to.azimuth = azimuth;
+  to.elevation = elevation;
+  fly_to(to);
 }
 
 void Stage::fly_to(const OrbitCamera& to) { flight_ = Flight{camera, to, 0.0}; }

@@ -31,7 +31,12 @@ class Stage {
   void set_shades(const std::shared_ptr<const Scan>& scan, Shades shades);
   bool has_shades(const std::shared_ptr<const Scan>& scan) const { return shades_.contains(scan); }
 
+  // How far noise spreads the points of a scan, made by the worker for one noise model.
+  void set_sigmas(const ScanEntry& entry, Sigmas sigmas);
+  bool has_sigmas(const ScanEntry& entry) const;
+
   // Cameras. Each flies there in a moment; settle() jumps to the end.
+  void look_from(double azimuth, double elevation);  // rad, about the pivot
   void view_of_sensor(const Scan& scan, double aspect);
   void frame_all(const Document& document, double aspect);
   void frame(const Document& document, const std::string& id, double aspect);
@@ -54,6 +59,8 @@ class Stage {
     PointColours colours{};
     Layers layers;
     float scale = 0;
+    ColourMap map{};
+    SigmaOf sigma_of{};
     std::size_t shades_made = 0;
     Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // heights are measured along it
     bool operator==(const Drawn&) const = default;
@@ -62,6 +69,8 @@ class Stage {
     std::shared_ptr<const FitResult> fit;  // held: its address is the key
     bool coloured = false;
     Rgba flat{};
+    ColourMap map{};
+    SigmaOf sigma_of{};
     SurfaceMesh mesh;
   };
 
@@ -70,7 +79,11 @@ class Stage {
   void add_points(const PointScene& in);
   double metres_per_pixel(double viewport_height) const;  // at the pivot
   void add_patches(const PointScene& in, float scale);
-  const SurfaceMesh& surface_of(const PatchEntry& entry, const std::optional<Rgba>& flat);
+  const SurfaceMesh& surface_of(const PatchEntry& entry, const std::optional<Rgba>& flat,
+                                const ViewState& state);
+  void add_chosen(const PointScene& in, const PatchEntry& entry, const Rgba& colour, float scale);
+  void add_point_ellipsoids(const PointScene& in);
+  void take(PatchScene scene);
 
   Scene scene_;
   std::optional<Drawn> drawn_;
@@ -78,7 +91,17 @@ class Stage {
   std::vector<AxisTip> tips_;
   std::map<std::shared_ptr<const Scan>, Shades> shades_;
   std::map<std::shared_ptr<const Scan>, double> spacings_;  // m
-  std::vector<double> drawn_spacings_;                      // of the scene's points
+  struct KnownSigmas {
+    std::string noise;  // its specification
+    Sigmas sigmas;
+  };
+  std::map<std::shared_ptr<const Scan>, KnownSigmas> sigmas_;
+  struct DrawnPoints {
+    double apart;  // m, from point to point
+    double share;  // of it that a point covers
+    bool thinned;  // where they are dense, so that the surface is seen between them
+  };
+  std::vector<DrawnPoints> drawn_points_;  // one an item of the scene
   std::size_t shades_made_ = 0;
   std::map<std::string, KnownSurface> surfaces_;  // by patch id
   std::optional<Flight> flight_;

@@ -4,6 +4,13 @@
 
 namespace patchlab::viewer {
 
+namespace {
+
+// A fit that takes longer is spoken of, and can be stopped.
+constexpr std::chrono::milliseconds worth_a_word{400};
+
+}  // namespace
+
 ApplyOptions with_progress(const Progress& progress) {
   ApplyOptions options;
   options.progress = progress;
@@ -44,9 +51,27 @@ void Workbench::in_background(std::function<Worker::Finish()> work) {
 bool Workbench::deliver() { return worker_.deliver(); }
 
 std::optional<Busy> Workbench::busy() const {
-  const std::optional<Worker::Status> status = worker_.running_order();
-  if (!status || status->name.empty()) return std::nullopt;
-  return Busy{status->name, status->fraction};
+  if (const std::optional<Worker::Status> status = worker_.running_order()) {
+    if (status->name.empty()) return std::nullopt;
+    return Busy{status->name, status->fraction};
+  }
+  const std::optional<double> fitted = worker_.running_preview();
+  const RegionEntry* region = find_region(session_.document(), region_);
+  if (!fitted || !region || std::chrono::steady_clock::now() - fit_asked_ < worth_a_word) return std::nullopt;
+  return Busy{"fitting " + std::to_string(region->points->size()) + " points", *fitted};
+}
+
+void Workbench::cancel_work() {
+  if (worker_.running_order()) return worker_.cancel_order();
+  const bool under_way = currency_ == Currency::fitting || currency_ == Currency::preview;
+  if (!under_way || worker_.idle()) return;
+  worker_.drop_previews();
+  keep_when_ready_ = false;
+  if (currency_ == Currency::preview) return;
+  draft_ = Draft{session_.document(), std::nullopt, false};
+  currency_ = Currency::failed;
+  fit_message_ = "The fit was stopped; Enter fits again.";
+  ++changes_;
 }
 
 void Workbench::report(const Error& error) {

@@ -6,6 +6,7 @@
 // one sees.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -51,7 +52,7 @@ class Workbench {
   // In the background. A journal (.patchlab) replaces the session: one of the folder of journals is gone on
   // with, of one from elsewhere a copy there. A scan joins the session, with a new journal where there is
   // none.
-  void open(const std::filesystem::path& file);
+  void open(const std::filesystem::path& file, const ScanWishes& wishes = {});
   void run(Command command);  // quick ones: rename, delete, show
   void undo();
   void redo();
@@ -79,7 +80,7 @@ class Workbench {
   // Runs what the worker has finished; true where something changed.
   bool deliver();
   bool idle() const { return steps_.empty() && !order_runs_ && worker_.idle(); }
-  void cancel_work() { worker_.cancel_order(); }
+  void cancel_work();  // the order that runs, or else the fit
   std::optional<Busy> busy() const;
 
   const Document& document() const { return draft_ ? draft_->document : session_.document(); }
@@ -94,6 +95,9 @@ class Workbench {
   Currency currency() const { return currency_; }
   const std::string& fit_message() const { return fit_message_; }
   double fit_milliseconds() const { return fit_milliseconds_; }
+  // Of the points of a large region a preview takes one in so many; 1: all of them.
+  std::size_t fitted_one_in() const { return fitted_one_in_; }
+  bool fit_runs() const { return worker_.running_preview().has_value(); }
   std::uint64_t changes() const { return changes_; }  // grows whenever document() becomes another one
   // Sentences for the user since the last call.
   std::vector<Error> take_errors();
@@ -113,9 +117,12 @@ class Workbench {
     std::optional<Fit> fit;
     std::optional<Error> error;
     double milliseconds = 0.0;
+    std::size_t one_in = 1;  // of the points
   };
+  enum class Points { some, all };
 
-  Outcome attempt(Document document, const std::optional<Select>& select, Fit fit,
+  // With `some`, of a large region every so-many-th point only: a picture in a moment.
+  Outcome attempt(Document document, const std::optional<Select>& select, Fit fit, Points points,
                   const Progress& progress) const;
   ApplyOptions applying(const Progress& progress) const;  // for the worker's thread too
   void change(const std::string& name, Command command);
@@ -132,7 +139,7 @@ class Workbench {
 
   Result<Session> begin_session(const std::filesystem::path& file, const Progress& progress) const;
   void open_journal(const std::filesystem::path& file);
-  void open_scan(const std::filesystem::path& file);
+  void open_scan(const std::filesystem::path& file, const ScanWishes& wishes);
   void record_scan(OpenScan command, Document after);
   void tell_of_earlier_work(const std::filesystem::path& scan);
   Result<void> begin_journal(const std::filesystem::path& scan);
@@ -141,6 +148,7 @@ class Workbench {
   void run_now(const Command& command);
   void report(const Error& error);
   void refit();
+  void fit(Points points);  // the region in focus; some of its points first, then all
   void refit_open_region();
   void accept(Outcome outcome, bool keepable);
   void drop_draft();
@@ -157,6 +165,8 @@ class Workbench {
   Currency currency_ = Currency::nothing;
   std::string fit_message_;
   double fit_milliseconds_ = 0.0;
+  std::size_t fitted_one_in_ = 1;
+  std::chrono::steady_clock::time_point fit_asked_{};
   std::uint64_t changes_ = 0;
   std::vector<Error> errors_;
   std::vector<std::string> notices_;

@@ -4,8 +4,10 @@
 
 namespace patchlab::viewer {
 
-void Workbench::open(const std::filesystem::path& file) {
-  enqueue([this, file] { file.extension() == ".patchlab" ? open_journal(file) : open_scan(file); });
+void Workbench::open(const std::filesystem::path& file, const ScanWishes& wishes) {
+  enqueue([this, file, wishes] {
+    file.extension() == ".patchlab" ? open_journal(file) : open_scan(file, wishes);
+  });
 }
 
 // A journal is gone on with in the program's own folder: one from elsewhere is another's work, or a file
@@ -44,10 +46,13 @@ void Workbench::open_journal(const std::filesystem::path& file) {
   });
 }
 
-void Workbench::open_scan(const std::filesystem::path& file) {
+void Workbench::open_scan(const std::filesystem::path& file, const ScanWishes& wishes) {
   OpenScan command;
   command.id = free_id(session_.document(), "scan");
   command.file = std::filesystem::absolute(file).lexically_normal().string();
+  command.unit = wishes.unit;
+  command.intrinsics = wishes.intrinsics;
+  command.depth_scale = wishes.depth_scale;
   order("opening " + file.filename().string(),
         [this, command, before = session_.document()](const Progress& progress) -> Worker::Finish {
           Command wanted = command;

@@ -15,6 +15,26 @@ const PatchEntry* patch_of(const Document& document, const std::string& region) 
   return found == document.patches.end() ? nullptr : &*found;
 }
 
+// Of more points than `many`, about `few` are fitted first.
+constexpr std::size_t many = 20'000, few = 5'000;
+
+std::size_t one_in(const RegionEntry& region) {
+  const std::size_t points = region.points->size();
+  return points > many ? (points + few - 1) / few : 1;
+}
+
+using Ids = std::vector<std::uint32_t>;
+std::shared_ptr<const Ids> thinned(const Ids& ids, std::size_t every) {
+  auto some = std::make_shared<Ids>();
+  for (std::size_t i = 0; i < ids.size(); i += every) some->push_back(ids[i]);
+  return some;
+}
+
+RegionEntry& entry_of(Document& document, const std::string& region) {
+  return *std::find_if(document.regions.begin(), document.regions.end(),
+                       [&region](const RegionEntry& entry) { return entry.id == region; });
+}
+
 // What a new region is drawn on: the scan that was pointed at, or the newest one that is shown.
 std::string scan_under(const Stroke& stroke, const Document& document) {
   if (!stroke.scan.empty()) return stroke.scan;
@@ -60,7 +80,7 @@ ApplyOptions Workbench::applying(const Progress& progress) const {
 }
 
 Workbench::Outcome Workbench::attempt(Document document, const std::optional<Select>& select, Fit fit,
-                                      const Progress& progress) const {
+                                      Points points, const Progress& progress) const {
   Outcome outcome;
   outcome.document = std::move(document);
   if (select) {
@@ -69,17 +89,22 @@ Workbench::Outcome Workbench::attempt(Document document, const std::optional<Sel
     if (!selected) return {std::move(outcome.document), std::nullopt, selected.error()};
     outcome.document = std::move(*selected);
   }
+  RegionEntry& region = entry_of(outcome.document, fit.region);
+  const std::shared_ptr<const Ids> all = region.points;
+  if (points == Points::some) outcome.one_in = one_in(region);
+  if (outcome.one_in > 1) region.points = thinned(*all, outcome.one_in);
   const auto start = std::chrono::steady_clock::now();
   Command command = std::move(fit);
   Result<Document> fitted = apply(outcome.document, command, applying(progress));
   outcome.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  if (!fitted) {
+  if (fitted) {
+    outcome.document = std::move(*fitted);
+    outcome.fit = std::get<Fit>(command);
+  } else {
     outcome.error = fitted.error();
-    return outcome;
   }
-  outcome.document = std::move(*fitted);
-  outcome.fit = std::get<Fit>(command);
+  entry_of(outcome.document, std::get<Fit>(command).region).points = all;
   return outcome;
 }
 
@@ -97,9 +122,10 @@ void Workbench::preview(const Stroke& stroke) {
   if (refusal(stroke) || order_runs_) return;
   const Select select = select_command(stroke);
   currency_ = Currency::fitting;
+  fit_asked_ = std::chrono::steady_clock::now();
   worker_.preview([this, select, fit = fit_command(select.region),
                    before = session_.document()](const Progress& progress) -> Worker::Finish {
-    auto outcome = std::make_shared<Outcome>(attempt(before, select, fit, progress));
+    auto outcome = std::make_shared<Outcome>(attempt(before, select, fit, Points::some, progress));
     return [this, outcome] { accept(std::move(*outcome), false); };
   });
 }
@@ -188,10 +214,20 @@ void Workbench::refit_open_region() {
 void Workbench::refit() {
   currency_ = Currency::fitting;
   keep_when_ready_ = false;
-  worker_.preview_now([this, fit = fit_command(region_),
-                       before = session_.document()](const Progress& progress) -> Worker::Finish {
-    auto outcome = std::make_shared<Outcome>(attempt(before, std::nullopt, fit, progress));
-    return [this, outcome] { accept(std::move(*outcome), true); };
+  fit_asked_ = std::chrono::steady_clock::now();
+  worker_.drop_previews();
+  const RegionEntry* region = find_region(session_.document(), region_);
+  fit(region && one_in(*region) > 1 ? Points::some : Points::all);
+}
+
+void Workbench::fit(Points points) {
+  worker_.preview([this, points, fit = fit_command(region_),
+                   before = session_.document()](const Progress& progress) -> Worker::Finish {
+    auto outcome = std::make_shared<Outcome>(attempt(before, std::nullopt, fit, points, progress));
+    return [this, points, outcome] {
+      accept(std::move(*outcome), points == Points::all);
+      if (points == Points::some) this->fit(Points::all);
+    };
   });
 }
 
@@ -199,15 +235,18 @@ void Workbench::accept(Outcome outcome, bool keepable) {
   if (outcome.error && outcome.error->code == ErrorCode::cancelled) return;
   draft_ = Draft{std::move(outcome.document), std::move(outcome.fit), keepable};
   fit_milliseconds_ = outcome.milliseconds;
-  currency_ = outcome.error ? Currency::failed : Currency::current;
+  fitted_one_in_ = outcome.one_in;
+  currency_ = outcome.error ? Currency::failed : outcome.one_in > 1 ? Currency::preview : Currency::current;
   fit_message_ = outcome.error ? outcome.error->message : std::string();
   selection_ = draft_->fit ? draft_->fit->patch : region_;
   ++changes_;
-  if (std::exchange(keep_when_ready_, false) && keepable) keep();
+  if (keepable && std::exchange(keep_when_ready_, false)) keep();
 }
 
 void Workbench::keep() {
-  if (currency_ == Currency::fitting || !steps_.empty() || order_runs_) {
+  const bool not_yet = currency_ == Currency::fitting || currency_ == Currency::preview;
+  if (not_yet || !steps_.empty() || order_runs_) {
+    if (not_yet && !region_.empty() && worker_.idle()) refit();
     keep_when_ready_ = true;
     return;
   }

@@ -17,6 +17,8 @@ constexpr ActionRow kActions[] = {
      kCtrl, kShift},
     {Action::export_patches, Menu::file, "Export patches...",
      "the kept patches, for a robot or another program", 'E', kCtrl},
+    {Action::save_picture, Menu::file, "Save picture...", "of the window or of the view alone, at any size",
+     key::f12},
     {Action::quit, Menu::file, "Quit", "nothing is lost: every step is saved as it happens", 'Q', kCtrl},
 
     {Action::undo, Menu::edit, "Undo", "takes the last step back, whatever it was", 'Z', kCtrl},
@@ -29,6 +31,8 @@ constexpr ActionRow kActions[] = {
     {Action::rectangle_tool, Menu::select, "Rectangle", "drag from corner to corner", 'M'},
     {Action::surface_tool, Menu::select, "Smooth surface",
      "click a point: the surface it lies on, up to its edges", 'G'},
+    {Action::measure_tool, Menu::select, "Measure",
+     "click two points: their distance, with its standard deviation", 'D'},
     {Action::visible_only, Menu::select, "Visible only",
      "a contour leaves out what other points hide; otherwise it goes through", 'X'},
     {Action::mode_set, Menu::select, "Set", "a new contour replaces the selection"},
@@ -79,6 +83,13 @@ constexpr ActionRow kActions[] = {
     {Action::home, Menu::view, "Frame all", "everything in view", key::home},
     {Action::frame_selection, Menu::view, "Frame selection", "the chosen patch, region or scan", 'F'},
     {Action::sensor_view, Menu::view, "View of the sensor", "from where the scan was taken", 'V'},
+    {Action::view_right, Menu::view, "From the right", "about the axis that the view turns about", '6'},
+    {Action::view_top, Menu::view, "From above", "", '7'},
+    {Action::view_front, Menu::view, "From the front", "", '8'},
+    {Action::view_oblique, Menu::view, "Obliquely from above", "", '9'},
+    {Action::view_left, Menu::view, "From the left", "", '6', kCtrl},
+    {Action::view_below, Menu::view, "From below", "", '7', kCtrl},
+    {Action::view_back, Menu::view, "From behind", "", '8', kCtrl},
     {Action::perspective, Menu::view, "Perspective", "or parallel projection", '5'},
     {Action::colour_shading, Menu::view, "Points shaded", "grey, by how they face the sensor"},
     {Action::colour_photo, Menu::view, "Points in their own colours", "where the scan has them"},
@@ -86,6 +97,9 @@ constexpr ActionRow kActions[] = {
     {Action::colour_label, Menu::view, "Points by label", "where the scan has labels"},
     {Action::colour_residual, Menu::view, "Residuals on points",
      "signed distance to the patch in standard deviations", 'C'},
+    {Action::colour_noise, Menu::view, "Points by noise",
+     "how far the noise model spreads each: its largest standard deviation"},
+    {Action::cividis, Menu::view, "Cividis colours", "instead of viridis, where numbers are colours"},
     {Action::larger_points, Menu::view, "Larger points", "", ']'},
     {Action::smaller_points, Menu::view, "Smaller points", "", '['},
     {Action::show_surface, Menu::view, "Surface", "coloured by the standard deviation of its height"},
@@ -95,17 +109,30 @@ constexpr ActionRow kActions[] = {
     {Action::show_axes, Menu::view, "Local axes", "of the chosen patch"},
     {Action::show_offsets, Menu::view, "Offset surfaces",
      "where the surface lies with 95 %, above and below; how much further apart is written in the view", 'S'},
+    {Action::show_points, Menu::view, "Ellipsoids of the points", "95 % of some points of the chosen region",
+     'E'},
+    {Action::show_grid, Menu::view, "Grid on patches", "lines of their local axes: how they are curved"},
+    {Action::show_names, Menu::view, "Names of patches", "in the view"},
+    {Action::sigma_of_both, Menu::view, "Uncertainty of shape and pose", "as the fit gives it"},
+    {Action::sigma_of_shape, Menu::view, "Uncertainty of the shape alone",
+     "intrinsic: as if the pose were known; outline and curvatures"},
+    {Action::sigma_of_pose, Menu::view, "Uncertainty of the pose alone",
+     "extrinsic: as if the shape were known"},
+    {Action::side_panels, Menu::view, "Side panels", "or the view alone between the bars", key::tab},
     {Action::theme, Menu::view, "Light theme", "or dark", 'T', kCtrl},
     {Action::larger_interface, Menu::view, "Larger interface", "", '=', kCtrl, false, key::pad_add},
     {Action::smaller_interface, Menu::view, "Smaller interface", "", '-', kCtrl, false, key::pad_subtract},
     {Action::normal_interface, Menu::view, "Normal interface size", "", '0', kCtrl},
 
     {Action::help, Menu::help, "Keys and gestures", "this sheet", key::f1},
+    {Action::palette, Menu::help, "All commands...", "find one by typing a part of its name", 'P', kCtrl},
+    {Action::messages, Menu::help, "Messages...", "all that was said since the start"},
 };
 
 constexpr Gesture kGestures[] = {
     {"Left drag", "lasso tool: draws freehand, the release closes · orbit tool: turns the view"},
     {"Left click", "lasso tool: a corner; near the start it closes · orbit tool: chooses the patch under it"},
+    {"Edge of a side panel", "drag: its width"},
     {"Double click", "closes the contour; elsewhere sets the pivot"},
     {"Left drag, left click",
      "rectangle tool: from corner to corner · smooth surface tool: a click takes the surface up to its edges"},
@@ -120,9 +147,11 @@ constexpr struct {
   int key;
   const char* name;
 } kKeyNames[] = {
-    {key::del, "Delete"},  {key::backspace, "Backspace"}, {key::escape, "Esc"},
-    {key::enter, "Enter"}, {key::home, "Home"},           {key::f1, "F1"},
-    {key::f2, "F2"},
+    {key::del, "Delete"}, {key::backspace, "Backspace"},
+    {key::escape, "Esc"}, {key::enter, "Enter"},
+    {key::home, "Home"},  {key::f1, "F1"},
+    {key::f2, "F2"},      {key::f12, "F12"},
+    {key::tab, "Tab"},
 };
 
 }  // namespace

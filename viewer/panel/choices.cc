@@ -39,16 +39,21 @@ constexpr Choice<SelectMode> kModeChoices[] = {{Action::mode_set, SelectMode::se
 constexpr Choice<Tool> kToolChoices[] = {{Action::orbit_tool, Tool::orbit},
                                          {Action::lasso_tool, Tool::lasso},
                                          {Action::rectangle_tool, Tool::rectangle},
-                                         {Action::surface_tool, Tool::surface}};
-constexpr Choice<PointColours> kColours[] = {{Action::colour_shading, PointColours::shading},
-                                             {Action::colour_photo, PointColours::photo},
-                                             {Action::colour_height, PointColours::height},
-                                             {Action::colour_label, PointColours::label},
-                                             {Action::colour_residual, PointColours::residual}};
+                                         {Action::surface_tool, Tool::surface},
+                                         {Action::measure_tool, Tool::measure}};
+constexpr Choice<PointColours> kColours[] = {
+    {Action::colour_shading, PointColours::shading},   {Action::colour_photo, PointColours::photo},
+    {Action::colour_height, PointColours::height},     {Action::colour_label, PointColours::label},
+    {Action::colour_residual, PointColours::residual}, {Action::colour_noise, PointColours::noise}};
+constexpr Choice<SigmaOf> kSigmas[] = {{Action::sigma_of_both, SigmaOf::both},
+                                       {Action::sigma_of_shape, SigmaOf::shape},
+                                       {Action::sigma_of_pose, SigmaOf::pose}};
 constexpr Choice<bool Layers::*> kLayers[] = {
     {Action::show_surface, &Layers::surface}, {Action::show_ellipsoid, &Layers::ellipsoid},
     {Action::show_cone, &Layers::cone},       {Action::show_band, &Layers::band},
-    {Action::show_axes, &Layers::axes},       {Action::show_offsets, &Layers::offsets}};
+    {Action::show_axes, &Layers::axes},       {Action::show_offsets, &Layers::offsets},
+    {Action::show_points, &Layers::points},   {Action::show_grid, &Layers::grid},
+    {Action::show_names, &Layers::names}};
 
 template <class Value, std::size_t n>
 std::optional<Value> find(const Choice<Value> (&choices)[n], Action action) {
@@ -82,6 +87,7 @@ std::optional<Reshaping> reshaping_of(Action action) { return find(kReshapingCho
 std::optional<SelectMode> mode_of(Action action) { return find(kModeChoices, action); }
 std::optional<Tool> tool_of(Action action) { return find(kToolChoices, action); }
 std::optional<PointColours> colours_of(Action action) { return find(kColours, action); }
+std::optional<SigmaOf> sigma_of(Action action) { return find(kSigmas, action); }
 bool Layers::*layer_of(Action action) { return find(kLayers, action).value_or(nullptr); }
 
 std::optional<bool> is_chosen(Action action, const ViewState& state) {
@@ -90,6 +96,7 @@ std::optional<bool> is_chosen(Action action, const ViewState& state) {
   if (const auto mode = mode_of(action)) return state.mode == *mode;
   if (const auto tool = tool_of(action)) return state.tool == *tool;
   if (const auto colours = colours_of(action)) return state.colours == *colours;
+  if (const auto part = sigma_of(action)) return state.sigma_of == *part;
   if (const auto layer = layer_of(action)) return state.layers.*layer;
   switch (action) {
     case Action::visible_only:
@@ -98,6 +105,10 @@ std::optional<bool> is_chosen(Action action, const ViewState& state) {
       return state.robust;
     case Action::perspective:
       return state.perspective;
+    case Action::cividis:
+      return state.map == ColourMap::cividis;
+    case Action::side_panels:
+      return state.side_panels;
     case Action::theme:
       return state.theme == ThemeChoice::light;
     default:
@@ -130,12 +141,21 @@ bool is_possible(Action action, const Document& document, const ViewState& state
     case Action::frame_selection:
       return !state.selected.empty();
     case Action::keep:
-      return state.drawing || !state.draft.empty() || state.currency == Currency::fitting;
+      return state.drawing || !state.draft.empty() || state.currency == Currency::fitting ||
+             state.currency == Currency::preview;
     case Action::last_vertex:
       return state.drawing;
     case Action::home:
     case Action::noise:
     case Action::sensor_view:
+    case Action::view_right:
+    case Action::view_top:
+    case Action::view_front:
+    case Action::view_oblique:
+    case Action::view_left:
+    case Action::view_below:
+    case Action::view_back:
+    case Action::colour_noise:
       return !document.scans.empty();
     case Action::colour_photo:
       return any_scan_has(document, &Scan::colours);

@@ -14,6 +14,7 @@ std::optional<Reshaping> reshaping_of(Action action);
 std::optional<SelectMode> mode_of(Action action);
 std::optional<Tool> tool_of(Action action);
 std::optional<PointColours> colours_of(Action action);
+std::optional<SigmaOf> sigma_of(Action action);
 bool Layers::*layer_of(Action action);  // nullptr for what is no layer
 
 // True where the action is what is chosen now; nothing where it is not a choice.

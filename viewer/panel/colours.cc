@@ -62,9 +62,16 @@ Rgba oklch(double lightness, double chroma, double hue) {
           1.0f};
 }
 
-Rgba sequential(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return oklch(between(0.34, 0.91, t), between(0.105, 0.16, t * t), between(288.0, 106.0, t));
+Rgba sequential(double t, ColourMap map) {
+  // Nine points of each map, even steps apart.
+  constexpr std::array<unsigned, 9> viridis = {0x440154, 0x472D7B, 0x3B528B, 0x2C728E, 0x21918C,
+                                               0x28AE80, 0x5EC962, 0xADDC30, 0xFDE725};
+  constexpr std::array<unsigned, 9> cividis = {0x00224E, 0x1D3A6B, 0x43506C, 0x61666F, 0x7C7B78,
+                                               0x989175, 0xB7A96B, 0xDAC257, 0xFEE838};
+  const std::array<unsigned, 9>& points = map == ColourMap::viridis ? viridis : cividis;
+  const double at = std::clamp(t, 0.0, 1.0) * static_cast<double>(points.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(at), points.size() - 2);
+  return mix(rgb(points[below]), rgb(points[below + 1]), static_cast<float>(at - static_cast<double>(below)));
 }
 
 Rgba diverging(double t, double neutral_lightness) {

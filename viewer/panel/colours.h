@@ -1,6 +1,5 @@
-// Colours: conversions, the two colour maps, and the colours of patches. All maps are computed in OKLab, so
-// that equal steps of the value are equal steps to the eye, and read well to colour-blind users: lightness
-// alone carries the order.
+// Colours: conversions, the colour maps, and the colours of patches. Equal steps of a value are equal steps
+// to the eye, and lightness alone carries the order, so that colour-blind users read them too.
 #pragma once
 
 #include <array>
@@ -22,9 +21,10 @@ double contrast(const Rgba& one, const Rgba& other);
 // OKLab by lightness, chroma and hue (degrees), clipped to sRGB.
 Rgba oklch(double lightness, double chroma, double hue);
 
-// Dark violet through teal to light yellow, t in [0, 1]: magnitudes such as the standard deviation of a
-// height.
-Rgba sequential(double t);
+// From dark to light, t in [0, 1]: magnitudes such as the standard deviation of a height. Viridis goes from
+// violet through teal to yellow, cividis from blue through grey to yellow: alike to every colour-blind eye.
+enum class ColourMap { viridis, cividis };
+Rgba sequential(double t, ColourMap map = ColourMap::viridis);
 // Blue through neutral to orange, t in [-1, 1]: signed values such as correlations and residuals.
 // `neutral_lightness` suits the ground it lies on.
 Rgba diverging(double t, double neutral_lightness);

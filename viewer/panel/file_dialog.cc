@@ -8,7 +8,7 @@
 
 #include "engine/export/export.h"
 #include "viewer/panel/colours.h"
-#include "viewer/panel/numbers.h"
+#include "viewer/panel/panels.h"
 #include "viewer/platform/key.h"
 
 namespace patchlab::viewer {
@@ -27,6 +27,7 @@ const PurposeWords& words(FilePurpose purpose) {
       {"Open a scan or a journal", "Open", "type a path, or a part of a name"},
       {"Save a copy of the journal", "Save", "file name"},
       {"Export the patches", "Export", "file name"},
+      {"Save a picture", "Save", "file name"},
   };
   return table[static_cast<std::size_t>(purpose)];
 }
@@ -34,11 +35,6 @@ const PurposeWords& words(FilePurpose purpose) {
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
-}
-
-std::string size_words(std::uintmax_t bytes) {
-  const double kilo = static_cast<double>(bytes) / 1000.0;
-  return kilo < 1000.0 ? significant(kilo, 2) + " kB" : significant(kilo / 1000.0, 2) + " MB";
 }
 
 fs::path home_expanded(const std::string& typed) {
@@ -55,6 +51,7 @@ void FileDialog::show(FilePurpose purpose, const fs::path& folder, const std::st
   open_ = true;
   enter(folder);
   typed_ = name;
+  preview_of_ = -1;
 }
 
 void FileDialog::enter(const fs::path& folder) {
@@ -132,13 +129,17 @@ void FileDialog::confirm(const fs::path& file, Requests& out) {
 void FileDialog::finish(const fs::path& file, Requests& out) {
   switch (purpose_) {
     case FilePurpose::open:
-      out.open = file;
+      out.open = OpenRequest{file};
       break;
     case FilePurpose::save_journal:
       out.save_journal = file;
       break;
     case FilePurpose::export_patches:
       out.export_to = ExportRequest{std::string(export_formats()[format_].name), file};
+      break;
+    case FilePurpose::save_picture:
+      out.picture = picture_;
+      out.picture->file = file;
       break;
   }
   close();
@@ -150,20 +151,6 @@ void FileDialog::move_cursor() {
   if (ImGui::IsKeyPressed(key::down)) cursor_ = std::min(cursor_ + 1, rows - 1);
   if (ImGui::IsKeyPressed(key::up) && cursor_ > 0) --cursor_;
   cursor_ = std::min(cursor_, rows - 1);
-}
-
-void FileDialog::draw_formats(const Gui& gui) {
-  const auto formats = export_formats();
-  for (std::size_t i = 0; i < formats.size(); ++i) {
-    const std::string name = "format/" + std::string(formats[i].name);
-    if (button(gui, name.c_str(), formats[i].name, {.chosen = i == format_})) {
-      format_ = i;
-      typed_ = fs::path(typed_).replace_extension(formats[i].extension).string();
-    }
-    tooltip(gui, formats[i].description);
-    ImGui::SameLine(0, gui.px(6));
-  }
-  ImGui::NewLine();
 }
 
 void FileDialog::draw_list(const Gui& gui, Requests& out) {
@@ -203,9 +190,10 @@ void FileDialog::draw_list(const Gui& gui, Requests& out) {
   ImGui::EndChild();
 }
 
-void FileDialog::draw(const Gui& gui, Requests& out) {
+void FileDialog::draw(const PanelInput& in, Requests& out) {
   if (!open_) return;
-  if (!begin_dialog(gui, "files", {720, 560})) return;
+  const Gui& gui = in.gui;
+  if (!begin_dialog(gui, "files", {720, 600})) return;
   ImGui::PushFont(gui.fonts.title);
   ImGui::TextUnformatted(words(purpose_).title);
   ImGui::PopFont();
@@ -214,7 +202,8 @@ void FileDialog::draw(const Gui& gui, Requests& out) {
   ImGui::AlignTextToFramePadding();
   paragraph(gui, gui.theme.text_dim,
             fit_path(gui.fonts.body, folder_.string(), ImGui::GetContentRegionAvail().x));
-  if (purpose_ == FilePurpose::export_patches) draw_formats(gui);
+  if (purpose_ == FilePurpose::export_patches) draw_formats(in);
+  if (purpose_ == FilePurpose::save_picture) draw_picture_options(gui);
   move_cursor();
   if (focus_) ImGui::SetKeyboardFocusHere();
   focus_ = false;

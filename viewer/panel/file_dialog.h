@@ -1,5 +1,6 @@
-// The file dialog: open a scan or journal, save a copy of the journal, export the patches. Works by mouse, by
-// keyboard alone, and without any helper program. The folder is read when it is entered, not every frame.
+// The file dialog: open a scan or journal, save a copy of the journal or a picture, export the patches. Works
+// by mouse, by keyboard alone, and without any helper program. The folder is read when it is entered, not
+// every frame.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,11 @@
 
 namespace patchlab::viewer {
 
-enum class FilePurpose { open, save_journal, export_patches };
+struct PanelInput;
+
+enum class FilePurpose { open, save_journal, export_patches, save_picture };
+
+std::string size_words(std::uintmax_t bytes);  // "12 kB"
 
 class FileDialog {
  public:
@@ -20,7 +25,7 @@ class FileDialog {
   bool is_open() const { return open_; }
   const std::filesystem::path& folder() const { return folder_; }
 
-  void draw(const Gui& gui, Requests& out);
+  void draw(const PanelInput& in, Requests& out);
 
  private:
   struct Entry {
@@ -30,7 +35,11 @@ class FileDialog {
   };
   void enter(const std::filesystem::path& folder);
   void draw_list(const Gui& gui, Requests& out);
-  void draw_formats(const Gui& gui);
+  // file_options.cc
+  void draw_formats(const PanelInput& in);
+  void draw_picture_options(const Gui& gui);
+  void make_preview(const PanelInput& in);
+
   void move_cursor();
   std::vector<std::size_t> shown() const;  // entries that the typed text matches
   std::filesystem::path typed_path() const;
@@ -47,6 +56,9 @@ class FileDialog {
   std::vector<Entry> entries_;
   std::size_t cursor_ = 0;
   std::size_t format_ = 0;
+  std::vector<std::string> preview_;  // of the export: what of, then its first lines
+  int preview_of_ = -1;               // format
+  PictureRequest picture_;
   std::filesystem::path overwrite_;  // asked about once
   bool focus_ = false;
 };

@@ -90,6 +90,10 @@ float draw_label(const Gui& gui, ImDrawList& draw, ImVec2 at, const Rgba& colour
   return x + text_size(gui.fonts.body, label.tail).x - at.x;
 }
 
+void draw_plate(const Gui& gui, ImVec2 from, ImVec2 to, ImDrawList& draw) {
+  draw.AddRectFilled(from, to, u32(with_alpha(gui.theme.panel, 0.88f)), gui.px(7));
+}
+
 void begin_panel(const char* name, const Rect& rect, const Rgba& ground, ImVec2 padding, bool scrolls) {
   ImGui::SetNextWindowPos(corner(rect));
   ImGui::SetNextWindowSize({rect.width, rect.height});

@@ -44,6 +44,9 @@ std::string fit_text(ImFont* font, std::string_view text, float width);
 // The longest end that fits: what matters of a path.
 std::string fit_path(ImFont* font, std::string_view path, float width);
 
+// A ground that keeps text readable over any scan.
+void draw_plate(const Gui& gui, ImVec2 from, ImVec2 to, ImDrawList& draw);
+
 // A part of the shell: a window without decoration, on `ground`, closed by end_panel().
 void begin_panel(const char* name, const Rect& rect, const Rgba& ground, ImVec2 padding,
                  bool scrolls = false);

@@ -101,7 +101,7 @@ void draw_earlier_work(const PanelInput& in, const EarlierWork& work, Requests& 
   const Gui& gui = in.gui;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = gui.px(26);
-  if (ImGui::InvisibleButton(work.journal.c_str(), {width, height})) out.open = work.journal;
+  if (ImGui::InvisibleButton(work.journal.c_str(), {width, height})) out.open = OpenRequest{work.journal};
   gui.note("earlier/" + work.scan);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered()) {

@@ -5,12 +5,15 @@
 
 namespace patchlab::viewer {
 
-Layout make_layout(float width, float height, float scale) {
-  const float menu = std::round(32 * scale), tools = std::round(44 * scale), status = std::round(30 * scale);
+Layout make_layout(float width, float height, float scale, const Shell& shell) {
+  const auto bar = [&](float unscaled) { return shell.bars ? std::round(unscaled * scale) : 0.0f; };
+  const auto side = [&](float unscaled, float part) {
+    return shell.side_panels ? std::round(std::min(unscaled * scale, width * part)) : 0.0f;
+  };
+  const float menu = bar(32), tools = bar(44), status = bar(30);
   const float top = menu + tools;
   const float middle = std::max(0.0f, height - top - status);
-  const float tree = std::round(std::min(250 * scale, width * 0.25f));
-  const float inspector = std::round(std::min(364 * scale, width * 0.40f));
+  const float tree = side(shell.tree, 0.25f), inspector = side(shell.inspector, 0.40f);
   Layout layout;
   layout.menu = {0, 0, width, menu};
   layout.tools = {0, menu, width, tools};

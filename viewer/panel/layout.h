@@ -14,7 +14,13 @@ struct Layout {
   Rect menu, tools, tree, inspector, status, view;
 };
 
+// What is shown around the view, and how wide (px at scale 1).
+struct Shell {
+  float tree = 250.0f, inspector = 364.0f;
+  bool side_panels = true;
+  bool bars = true;
+};
 // The side panels give way where the window is small: the view keeps at least a third of it.
-Layout make_layout(float width, float height, float scale);
+Layout make_layout(float width, float height, float scale, const Shell& shell = {});
 
 }  // namespace patchlab::viewer

@@ -21,7 +21,7 @@ void draw_earlier_work(const PanelInput& in, Requests& out) {
   for (const EarlierWork& work : in.state.earlier) {
     const std::string name = "Go on with " + work.scan;
     ImGui::PushID(work.journal.c_str());
-    if (ImGui::MenuItem(name.c_str(), work.remark.c_str())) out.open = work.journal;
+    if (ImGui::MenuItem(name.c_str(), work.remark.c_str())) out.open = OpenRequest{work.journal};
     ImGui::PopID();
     tooltip(in.gui, work.journal.string());
   }
@@ -33,8 +33,10 @@ bool starts_group(Action action) {
          action == Action::last_vertex || action == Action::invert || action == Action::hide ||
          action == Action::fit_elliptic || action == Action::bound_automatic ||
          action == Action::visible_only || action == Action::robust || action == Action::keep ||
-         action == Action::perspective || action == Action::colour_shading ||
-         action == Action::larger_points || action == Action::show_surface || action == Action::theme;
+         action == Action::view_right || action == Action::perspective || action == Action::cividis ||
+         action == Action::sigma_of_both || action == Action::side_panels ||
+         action == Action::colour_shading || action == Action::larger_points ||
+         action == Action::show_surface || action == Action::theme;
 }
 
 std::string scan_info(const Document& document) {

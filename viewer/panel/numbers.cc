@@ -26,6 +26,9 @@ Unit unit_of(double magnitude, Dimension dimension) {
   return {"1/m", 1.0};
 }
 
+// Of the unit of a value; a smaller standard deviation has a unit of its own.
+constexpr double least_in_unit = 0.01;
+
 // Decimals that show `digits` significant digits of a number.
 int decimals_of(double number, int digits) {
   if (number == 0.0 || !std::isfinite(number)) return digits - 1;
@@ -46,7 +49,10 @@ std::string significant(double value, int digits) { return fixed(value, decimals
 Measured measured(double value, double sigma, Dimension dimension) {
   const Unit unit = unit_of(std::abs(value), dimension);
   const int decimals = sigma > 0 ? decimals_of(sigma / unit.size, 2) : 3;
-  return {fixed(value / unit.size, decimals) + " " + unit.name, sigma_text(sigma, dimension)};
+  const bool of_its_size = sigma / unit.size >= least_in_unit;
+  return {fixed(value / unit.size, decimals) + " " + unit.name,
+          of_its_size ? "± " + significant(sigma / unit.size, 2) + " " + unit.name
+                      : sigma_text(sigma, dimension)};
 }
 
 std::string sigma_text(double sigma, Dimension dimension) {
@@ -73,6 +79,10 @@ std::string short_count(std::size_t number) {
   if (number < 10'000) return count(number);
   if (number < 1'000'000) return std::to_string((number + 500) / 1000) + "k";
   return significant(static_cast<double>(number) / 1e6, 2) + "M";
+}
+
+std::string duration(double seconds) {
+  return seconds < 1.0 ? significant(seconds * 1e3, 2) + " ms" : significant(seconds, 2) + " s";
 }
 
 std::string p_value_text(double p) { return p < 0.001 ? "p < 0.001" : "p " + fixed(p, p < 0.01 ? 3 : 2); }

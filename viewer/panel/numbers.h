@@ -24,6 +24,7 @@ std::string fixed(double value, int decimals);  // "−0.52"
 std::string significant(double value, int digits);
 std::string count(std::size_t number);        // "307,200"
 std::string short_count(std::size_t number);  // "307k"
+std::string duration(double seconds);         // "0.9 ms", "12 s"
 std::string p_value_text(double p);           // "p 0.41", "p < 0.001"
 
 }  // namespace patchlab::viewer

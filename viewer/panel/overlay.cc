@@ -11,18 +11,24 @@ namespace patchlab::viewer {
 namespace {
 
 struct Pill {
-  const char* text;
+  std::string text;
   Rgba ground, frame, colour;
 };
 
-void draw_pill(const PanelInput& in, ImDrawList& draw) {
+// Returns how much of the upper edge it takes.
+float draw_pill(const PanelInput& in, ImDrawList& draw) {
   const Theme& theme = in.gui.theme;
   std::optional<Pill> pill;
   switch (in.state.currency) {
     case Currency::nothing:
-      return;
+      return 0.0f;
     case Currency::fitting:
       pill = {"fitting\u2026", theme.accent_ground, theme.accent, theme.accent_text};
+      break;
+    case Currency::preview:
+      pill = {"preview: one point in " + std::to_string(in.state.fitted_one_in) +
+                  (in.state.fit_runs ? ", fitting all\u2026" : ""),
+              theme.accent_ground, theme.accent, theme.accent_text};
       break;
     case Currency::current:
       pill = {"up to date", theme.good_ground, theme.good, theme.good_text};
@@ -39,19 +45,15 @@ void draw_pill(const PanelInput& in, ImDrawList& draw) {
   draw.AddRect(at, end, u32(pill->frame), size.y / 2, 0, gui.px(1));
   draw_text(draw, gui.fonts.body, {at.x + gui.px(16), at.y + (size.y - gui.fonts.body->FontSize) / 2},
             pill->colour, pill->text);
+  return size.x + gui.px(16);
 }
 
-// A ground that keeps text readable over any scan.
-void draw_plate(const Gui& gui, ImVec2 from, ImVec2 to, ImDrawList& draw) {
-  draw.AddRectFilled(from, to, u32(with_alpha(gui.theme.panel, 0.88f)), gui.px(7));
-}
-
-void draw_notes(const PanelInput& in, ImDrawList& draw) {
+void draw_notes(const PanelInput& in, float taken, ImDrawList& draw) {
   if (in.state.notes.lines.empty()) return;
   const Gui& gui = in.gui;
   const float line_height = gui.fonts.body->FontSize + gui.px(4), pad = gui.px(10);
   const ImVec2 at = {in.layout.view.x + gui.px(14), in.layout.view.y + gui.px(14)};
-  const float room = in.layout.view.width - gui.px(170);
+  const float room = in.layout.view.width - taken - gui.px(60);
   std::vector<std::string> lines;
   float width = 0;
   for (const std::string& line : in.state.notes.lines) {
@@ -91,64 +93,6 @@ void draw_scale_bar(const PanelInput& in, ImDrawList& draw) {
       draw, gui.fonts.small,
       {at.x + (width - text_size(gui.fonts.small, text).x) / 2, at.y - gui.px(8) - gui.fonts.small->FontSize},
       gui.theme.text, text);
-}
-
-// A vertical bar at the right of the view, with three labels and a title below.
-struct ColourBar {
-  std::array<std::string, 3> labels;  // low, middle, high
-  const char* title;
-  Rgba (*colour)(double t, const Theme& theme);
-};
-constexpr float bar_apart = 104;  // px, from one bar to the next
-
-// `place`: 0 is the first from the right.
-void draw_colour_bar(const PanelInput& in, const ColourBar& bar, int place, ImDrawList& draw) {
-  const Gui& gui = in.gui;
-  const float width = gui.px(12), height = std::min(gui.px(170), in.layout.view.height * 0.4f);
-  const ImVec2 at = {in.layout.view.right() - gui.px(30 + bar_apart * static_cast<float>(place)),
-                     in.layout.view.y + (in.layout.view.height - height) / 2};
-  float label_space = text_size(gui.fonts.small, bar.title).x - width;
-  for (const std::string& label : bar.labels) {
-    label_space = std::max(label_space, text_size(gui.fonts.small, label).x + gui.px(6));
-  }
-  draw_plate(gui, {at.x - label_space - gui.px(10), at.y - gui.px(14)},
-             {at.x + width + gui.px(10), at.y + height + gui.px(32)}, draw);
-  constexpr int steps = 64;
-  for (int i = 0; i < steps; ++i) {
-    const float from = at.y + height * static_cast<float>(steps - 1 - i) / steps;
-    draw.AddRectFilled({at.x, from}, {at.x + width, from + height / steps + 0.5f},
-                       u32(bar.colour((i + 0.5) / steps, gui.theme)));
-  }
-  for (std::size_t i = 0; i < bar.labels.size(); ++i) {
-    const float y = at.y + height * (1.0f - static_cast<float>(i) / 2) - gui.fonts.small->FontSize / 2;
-    draw_text_right(draw, gui.fonts.small, {at.x - gui.px(6), y}, gui.theme.text, bar.labels[i]);
-  }
-  draw_text_right(draw, gui.fonts.small, {at.x + width, at.y + height + gui.px(10)}, gui.theme.text_dim,
-                  bar.title);
-}
-
-Rgba sequential_colour(double t, const Theme&) { return sequential(t); }
-Rgba diverging_colour(double t, const Theme& theme) { return diverging(2 * t - 1, theme.neutral_lightness); }
-
-// From `range.x()` to `range.y()`, with as many decimals as tell its ends apart.
-std::array<std::string, 3> bar_labels(const Eigen::Vector2d& range) {
-  const double largest = std::max(range.cwiseAbs().maxCoeff(), 1e-6);
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(largest))), 0, 4);
-  return {fixed(range.x(), decimals), fixed(range.mean(), decimals), fixed(range.y(), decimals)};
-}
-
-void draw_colour_bars(const PanelInput& in, ImDrawList& draw) {
-  const SceneNotes& notes = in.state.notes;
-  int place = 0;
-  if (notes.residual_colours) {
-    draw_colour_bar(in, {{"\u22123", "0", "3"}, "residual, σ", diverging_colour}, place++, draw);
-  } else if (notes.height_sigma) {
-    draw_colour_bar(in, {bar_labels(*notes.height_sigma * 1e3), "height σ, mm", sequential_colour}, place++,
-                    draw);
-  }
-  if (notes.point_heights) {
-    draw_colour_bar(in, {bar_labels(*notes.point_heights), "height, m", sequential_colour}, place++, draw);
-  }
 }
 
 void draw_contour(const PanelInput& in, ImDrawList& draw) {
@@ -203,16 +147,42 @@ void draw_rimmed(const Gui& gui, ImDrawList& draw, ImVec2 at, const Rgba& colour
 
 // Labels that would overlap one before them move down past it.
 void draw_labels(const PanelInput& in, ImDrawList& draw) {
-  std::vector<ImVec2> taken;
-  const ImVec2 room = {in.gui.px(12), in.gui.fonts.strong->FontSize};
+  std::vector<Rect> taken;
+  const Rect& view = in.layout.view;
   for (const SceneNotes::Label& label : in.state.notes.labels) {
-    ImVec2 at = {in.layout.view.x + static_cast<float>(label.pixel.x()) - room.x / 2,
-                 in.layout.view.y + static_cast<float>(label.pixel.y()) - room.y / 2};
-    for (const ImVec2& other : taken) {
-      if (std::abs(other.x - at.x) < room.x && std::abs(other.y - at.y) < room.y) at.y = other.y + room.y;
+    const ImVec2 size = text_size(in.gui.fonts.strong, label.text);
+    const auto x = static_cast<float>(label.pixel.x()), y = static_cast<float>(label.pixel.y());
+    if (x < 0 || y < 0 || x > view.width || y > view.height) continue;
+    Rect at = {view.x + std::clamp(x - size.x / 2, 2.0f, view.width - size.x - 2.0f), view.y + y - size.y / 2,
+               size.x, size.y};
+    for (const Rect& other : taken) {
+      const bool apart = at.right() <= other.x || other.right() <= at.x || std::abs(other.y - at.y) >= size.y;
+      if (!apart) at.y = other.bottom();
     }
     taken.push_back(at);
-    draw_rimmed(in.gui, draw, at, label.colour, label.text);
+    draw_rimmed(in.gui, draw, corner(at), label.colour, label.text);
+  }
+}
+
+// Where nothing is open: what to do first.
+void draw_invitation(const PanelInput& in, ImDrawList& draw) {
+  const Gui& gui = in.gui;
+  if (in.state.busy) return;
+  const struct {
+    ImFont* font;
+    Rgba colour;
+    const char* text;
+  } lines[] = {{gui.fonts.title, gui.theme.text, "Drop a scan here"},
+               {gui.fonts.body, gui.theme.text_dim,
+                "or press Ctrl+O to open one: PCD, PLY, XYZ, CSV, OBJ, OFF, STL, depth images"},
+               {gui.fonts.body, gui.theme.text_dim, "then L, draw round a surface, Enter keeps the patch"}};
+  const Rect& view = in.layout.view;
+  float y = view.y + view.height * 0.44f;
+  for (const auto& line : lines) {
+    const std::string shown = fit_text(line.font, line.text, view.width - gui.px(40));
+    draw_text(draw, line.font, {view.x + (view.width - text_size(line.font, shown).x) / 2, y}, line.colour,
+              shown);
+    y += line.font->FontSize + gui.px(10);
   }
 }
 
@@ -222,13 +192,17 @@ void draw_overlay(const PanelInput& in) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const Rect& view = in.layout.view;
   draw.PushClipRect(corner(view), far_corner(view));
+  if (in.document.scans.empty()) {
+    draw_invitation(in, draw);
+    return draw.PopClipRect();
+  }
   draw_labels(in, draw);
+  draw_measured_line(in, draw);
   draw_contour(in, draw);
   draw_badge(in, draw);
-  draw_notes(in, draw);
+  draw_notes(in, draw_pill(in, draw), draw);
   draw_scale_bar(in, draw);
   draw_colour_bars(in, draw);
-  draw_pill(in, draw);
   draw.PopClipRect();
 }
 

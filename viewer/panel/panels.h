@@ -6,6 +6,7 @@
 #include "viewer/panel/file_dialog.h"
 #include "viewer/panel/gui.h"
 #include "viewer/panel/layout.h"
+#include "viewer/panel/scan_form.h"
 #include "viewer/panel/view_state.h"
 
 namespace patchlab::viewer {
@@ -17,6 +18,10 @@ struct PanelMemory {
   FileDialog files;
   bool help = false;
   std::string help_filter;
+  bool palette = false, messages = false;  // open
+  std::string palette_filter;
+  std::size_t palette_cursor = 0;
+  ScanForm scan_form;
   bool choose_noise = false;  // opens the list of noise models
   std::string noise_specification;
 };
@@ -39,6 +44,13 @@ void draw_status_bar(const PanelInput& in, Requests& out);
 void draw_overlay(const PanelInput& in);  // over the scene: notes, pill, scale bar, colour bar, contour
 void draw_help_sheet(const PanelInput& in, PanelMemory& memory);
 void draw_toasts(const PanelInput& in);
+void draw_splitters(const PanelInput& in, Requests& out);
+void draw_palette(const PanelInput& in, PanelMemory& memory, Requests& out);
+void draw_messages(const PanelInput& in, PanelMemory& memory);
+
+// Parts of the overlay.
+void draw_colour_bars(const PanelInput& in, ImDrawList& draw);
+void draw_measured_line(const PanelInput& in, ImDrawList& draw);
 
 // Parts of the inspector.
 void draw_verdict(const Gui& gui, const FitReport& report);

@@ -23,6 +23,9 @@ std::string hint(const ViewState& state) {
   if (state.tool == Tool::surface) {
     return "Smooth surface: click a point of it  ·  Shift adds, Ctrl subtracts  ·  right drag turns";
   }
+  if (state.tool == Tool::measure) {
+    return "Measure: click two points  ·  right drag turns  ·  Esc takes the line away";
+  }
   return "Drag turns, middle drag moves, wheel zooms, double click sets the pivot  ·  L draws a lasso  ·  F1 help";
 }
 
@@ -40,7 +43,7 @@ std::string facts(const PanelInput& in) {
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "  ·  ") + part; };
   if (const std::string selected = selected_words(in); !selected.empty()) add(selected);
   if (in.state.currency == Currency::current && in.state.fit_milliseconds > 0) {
-    add("fit " + significant(in.state.fit_milliseconds, 2) + " ms");
+    add("fit " + duration(in.state.fit_milliseconds * 1e-3));
   }
   if (!in.state.saved.empty()) {
     add(in.state.saved + " in " + fit_path(in.gui.fonts.body, in.state.journal, in.gui.px(300)));

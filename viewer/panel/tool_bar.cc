@@ -14,7 +14,8 @@ struct ToolButton {
 constexpr ToolButton kTools[] = {{Action::orbit_tool, "Orbit", "O"},
                                  {Action::lasso_tool, "Lasso", "L"},
                                  {Action::rectangle_tool, "Rect", "M"},
-                                 {Action::surface_tool, "Surface", "G"}};
+                                 {Action::surface_tool, "Surface", "G"},
+                                 {Action::measure_tool, "Measure", "D"}};
 constexpr ToolButton kModes[] = {{Action::mode_set, "Set", ""},
                                  {Action::mode_add, "Add", "Shift"},
                                  {Action::mode_subtract, "Sub", "Ctrl"},

@@ -12,18 +12,23 @@
 #include "engine/project/command.h"
 #include "engine/region/lasso.h"
 #include "viewer/panel/actions.h"
+#include "viewer/panel/colours.h"
 #include "viewer/panel/theme.h"
 
 namespace patchlab::viewer {
 
-enum class Tool { orbit, lasso, rectangle, surface };
-enum class PointColours { shading, photo, height, label, residual };
+enum class Tool { orbit, lasso, rectangle, surface, measure };
+enum class PointColours { shading, photo, height, label, residual, noise };
+// Which part of a patch's covariance is drawn: shape (intrinsic), pose (extrinsic) or both together.
+enum class SigmaOf { both, shape, pose };
 
-// Whether the patch on the screen is the fit of what is selected now.
-enum class Currency { nothing, fitting, current, failed };
+// Whether the patch on the screen is the fit of what is selected now. A preview is the fit of some of its
+// points.
+enum class Currency { nothing, fitting, preview, current, failed };
 
 struct Layers {
-  bool surface = true, ellipsoid = true, cone = true, band = true, axes = true, offsets = false;
+  bool surface = true, ellipsoid = true, cone = true, band = true, axes = true, offsets = false,
+       points = false, grid = false, names = false;
   bool operator==(const Layers&) const = default;
 };
 
@@ -38,8 +43,25 @@ struct SceneNotes {
   std::vector<Label> labels;                    // of axes
   std::optional<Eigen::Vector2d> height_sigma;  // least and largest on the surface, m: the colour bar
   bool residual_colours = false;
-  std::optional<Eigen::Vector2d> point_heights;  // where the colours of the points end, m
-  double metres_per_pixel = 0.0;                 // at the pivot
+  struct PointBar {  // what the colours of the points mean
+    const char* title;
+    Eigen::Vector2d range;  // where they end, in the unit of the title
+  };
+  std::optional<PointBar> points;
+  double metres_per_pixel = 0.0;  // at the pivot
+};
+
+// A distance that is being measured, or was: its ends in pixels of the view, what it came to, the sum in
+// words.
+struct MeasuredLine {
+  std::vector<Eigen::Vector2d> ends;
+  std::string text;
+};
+
+// Of the side panels, px at scale 1.
+struct PanelWidths {
+  float tree = 250.0f, inspector = 364.0f;
+  bool operator==(const PanelWidths&) const = default;
 };
 
 struct Toast {
@@ -71,6 +93,10 @@ struct ViewState {
   bool perspective = true;
   PointColours colours = PointColours::shading;
   float point_size = 2.0f;  // px, times the scale
+  ColourMap map = ColourMap::viridis;
+  SigmaOf sigma_of = SigmaOf::both;
+  bool side_panels = true;
+  PanelWidths widths;
   Layers layers;
 
   std::string selected;  // id of the scan, region or patch that the inspector shows
@@ -78,11 +104,15 @@ struct ViewState {
   Currency currency = Currency::nothing;
   std::string fit_message;  // why there is no fit
   double fit_milliseconds = 0.0;
+  std::size_t fitted_one_in = 1;  // of a preview: one point in so many
+  bool fit_runs = false;          // a newer one is on its way
 
   bool drawing = false;  // a contour is open
   SelectMode contour_mode = SelectMode::set;
   std::vector<Eigen::Vector2d> contour;  // px of the view
   bool contour_closes = false;           // a click now would close it
+
+  std::optional<MeasuredLine> measured;
 
   std::vector<std::string> history;
   std::size_t position = 0;  // how much of the history stands
@@ -92,7 +122,27 @@ struct ViewState {
   std::vector<EarlierWork> earlier;  // newest first
   std::optional<Busy> busy;
   std::vector<Toast> toasts;
+  std::vector<Toast> messages;  // all toasts since the start
   SceneNotes notes;
+};
+
+// A picture of the window, or of the view alone: `times` larger than it is on the screen.
+struct PictureRequest {
+  std::filesystem::path file;
+  int times = 1;
+  bool view_alone = false, transparent = false;
+};
+
+// What a scan file does not say, and the user does.
+struct ScanWishes {
+  LengthUnit unit = LengthUnit::m;
+  std::optional<Intrinsics> intrinsics = {};
+  double depth_scale = 0.0;  // raw units a metre; 0: not said
+};
+struct OpenRequest {
+  std::filesystem::path file;
+  ScanWishes wishes = {};
+  std::string instead_of = {};  // id of a scan that goes
 };
 
 struct ExportRequest {
@@ -107,9 +157,11 @@ struct Requests {
   std::optional<SurfaceRequest> surface;
   std::optional<SetNoise> noise;
   std::optional<std::size_t> history_position;
-  std::optional<std::filesystem::path> open;
+  std::optional<OpenRequest> open;
   std::optional<std::filesystem::path> save_journal;
   std::optional<ExportRequest> export_to;
+  std::optional<PictureRequest> picture;
+  std::optional<PanelWidths> widths;
   bool cancel_work = false;
 };
 

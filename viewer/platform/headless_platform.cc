@@ -95,11 +95,11 @@ class HeadlessPlatform : public Platform {
   void begin_frame() override {
     put_input();
     ImGui::GetIO().DeltaTime = kFrameTime;
-    frame_.begin(width_, height_);
+    frame_.begin(width(), height());
   }
   void end_frame() override { frame_.end(); }
-  int width() const override { return width_; }
-  int height() const override { return height_; }
+  int width() const override { return canvas_ ? canvas_->width : width_; }
+  int height() const override { return canvas_ ? canvas_->height : height_; }
   float scale() const override { return frame_.scale(); }
   void set_scale(float scale) override { frame_.set_scale(scale); }
   const Fonts& fonts() const override { return frame_.fonts(); }
@@ -110,6 +110,11 @@ class HeadlessPlatform : public Platform {
     width_ = width;
     height_ = height;
   }
+  void set_canvas(const std::optional<Canvas>& canvas) override {
+    if (!canvas_) own_scale_ = frame_.scale();
+    canvas_ = canvas;
+    frame_.set_scale(canvas ? canvas->scale : own_scale_);
+  }
   Image read_image() override { return frame_.read(); }
   std::string gl_renderer() const override { return gl_renderer_name(); }
 
@@ -118,7 +123,7 @@ class HeadlessPlatform : public Platform {
 
   void put_input() {
     ImGuiIO& io = ImGui::GetIO();
-    const bool outside = input_.mouse_x < 0.0f || input_.mouse_y < 0.0f;
+    const bool outside = canvas_ || input_.mouse_x < 0.0f || input_.mouse_y < 0.0f;
     io.MousePos = outside ? ImVec2(-FLT_MAX, -FLT_MAX) : ImVec2(input_.mouse_x, input_.mouse_y);
     std::copy(input_.buttons.begin(), input_.buttons.end(), io.MouseDown);
     io.MouseWheel = std::exchange(input_.wheel, 0.0f);
@@ -134,6 +139,8 @@ class HeadlessPlatform : public Platform {
   int width_, height_;
   GuiFrame frame_;
   Input input_;
+  std::optional<Canvas> canvas_;
+  float own_scale_ = 1.0f;
   bool closing_ = false;
 };
 

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -33,7 +34,8 @@ struct PlatformOptions {
 
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;  // row by row from the top
+  std::vector<std::uint8_t> rgb;         // row by row from the top
+  std::vector<std::uint8_t> alpha = {};  // one a pixel, straight; empty: opaque
 };
 // unwritable error where the file cannot be written; it appears whole or not at all.
 Result<void> write_png(const std::filesystem::path& file, const Image& image);
@@ -60,6 +62,12 @@ struct Input {
   std::string text{};                      // UTF-8
 };
 
+// Where pictures of another size are drawn.
+struct Canvas {
+  int width = 0, height = 0;  // px
+  float scale = 1.0f;         // of the UI
+};
+
 class Platform {
  public:
   virtual ~Platform() = default;
@@ -75,7 +83,10 @@ class Platform {
   virtual int width() const = 0;   // framebuffer px
   virtual int height() const = 0;
   virtual void resize(int width, int height) = 0;  // px, for the frames from now on
-  virtual float scale() const = 0;                 // of the UI; follows the monitor where none was asked for
+  // For the frames from now on: they are drawn there and not presented, and the mouse is nowhere. Nothing: as
+  // before. At most 16384 pixels a side.
+  virtual void set_canvas(const std::optional<Canvas>& canvas) = 0;
+  virtual float scale() const = 0;  // of the UI; follows the monitor where none was asked for
   // Between frames: remakes the fonts. Styles are the caller's to scale.
   virtual void set_scale(float scale) = 0;
   virtual const Fonts& fonts() const = 0;

@@ -80,6 +80,7 @@ class WindowPlatform : public Platform {
     glfwSetWindowUserPointer(handle(), this);
     glfwSetDropCallback(handle(), &WindowPlatform::drop);
     ImGui_ImplGlfw_InitForOpenGL(handle(), true);
+    glfwSetKeyCallback(handle(), &WindowPlatform::key);
     measure();
   }
   ~WindowPlatform() override { ImGui_ImplGlfw_Shutdown(); }
@@ -96,13 +97,15 @@ class WindowPlatform : public Platform {
   void wake() override { glfwPostEmptyEvent(); }
   void begin_frame() override {
     measure();
-    if (follows_monitor_) frame_.set_scale(monitor_scale(handle()));
+    if (follows_monitor_ && !canvas_) frame_.set_scale(monitor_scale(handle()));
     ImGui_ImplGlfw_NewFrame();
     mouse_to_framebuffer();
     frame_.begin(width_, height_);
+    release_late();
   }
   void end_frame() override {
     frame_.end();
+    if (canvas_) return;
     frame_.present();
     glfwSwapBuffers(handle());
   }
@@ -123,6 +126,11 @@ class WindowPlatform : public Platform {
     glfwSetWindowSize(handle(), static_cast<int>(static_cast<float>(width) / pixels_per_unit_),
                       static_cast<int>(static_cast<float>(height) / pixels_per_unit_));
   }
+  void set_canvas(const std::optional<Canvas>& canvas) override {
+    if (!canvas_) own_scale_ = frame_.scale();
+    canvas_ = canvas;
+    frame_.set_scale(canvas ? canvas->scale : own_scale_);
+  }
   Image read_image() override { return frame_.read(); }
   std::string gl_renderer() const override { return gl_renderer_name(); }
 
@@ -133,17 +141,41 @@ class WindowPlatform : public Platform {
   }
   GLFWwindow* handle() const { return window_->get(); }
 
+  // ImGui 1.86 looks at the keyboard once a frame: what goes down and up between two frames, and a modifier
+  // that is let go in the same moment, would never be seen. Releases wait until it has looked.
+  static void key(GLFWwindow* window, int code, int scancode, int action, int modifiers) {
+    auto* self = static_cast<WindowPlatform*>(glfwGetWindowUserPointer(window));
+    if (action == GLFW_RELEASE && self->key_pressed_) {
+      self->late_releases_.push_back({code, scancode, modifiers});
+      return;
+    }
+    self->key_pressed_ = self->key_pressed_ || action == GLFW_PRESS;
+    ImGui_ImplGlfw_KeyCallback(window, code, scancode, action, modifiers);
+  }
+  void release_late() {
+    key_pressed_ = false;
+    for (const KeyRelease& late : late_releases_)
+      ImGui_ImplGlfw_KeyCallback(handle(), late.code, late.scancode, GLFW_RELEASE, late.modifiers);
+    late_releases_.clear();
+  }
+
   // A minimised window has no pixels; it is drawn as if it had one.
   void measure() {
     int units = 0, unused = 0;
     glfwGetFramebufferSize(handle(), &width_, &height_);
     glfwGetWindowSize(handle(), &units, &unused);
+    if (canvas_) {
+      width_ = canvas_->width;
+      height_ = canvas_->height;
+      return;
+    }
     width_ = std::max(width_, 1);
     height_ = std::max(height_, 1);
     pixels_per_unit_ = static_cast<float>(width_) / static_cast<float>(std::max(units, 1));
   }
   void mouse_to_framebuffer() const {
     ImVec2& mouse = ImGui::GetIO().MousePos;
+    if (canvas_) mouse = {-FLT_MAX, -FLT_MAX};
     if (!ImGui::IsMousePosValid(&mouse)) return;
     mouse = ImVec2(mouse.x * pixels_per_unit_, mouse.y * pixels_per_unit_);
   }
@@ -152,6 +184,13 @@ class WindowPlatform : public Platform {
   bool follows_monitor_;
   GuiFrame frame_;
   std::function<void(const std::vector<std::string>&)> dropped_;
+  struct KeyRelease {
+    int code, scancode, modifiers;
+  };
+  bool key_pressed_ = false;  // since ImGui looked last
+  std::vector<KeyRelease> late_releases_;
+  std::optional<Canvas> canvas_;
+  float own_scale_ = 1.0f;
   int width_ = 1, height_ = 1;    // framebuffer px
   float pixels_per_unit_ = 1.0f;  // framebuffer px a screen unit, in which GLFW places the mouse
 };

@@ -58,6 +58,7 @@ struct Scene {
   std::vector<MeshItem> meshes;  // opaque first, then translucent back to front by centre
   std::vector<LineItem> lines;
   Rgba background_top{}, background_bottom{};
+  bool fades = true;  // points into the background with distance
 };
 
 }  // namespace patchlab::viewer

@@ -63,7 +63,7 @@ PointFade point_fade(const View& view, const Scene& scene) {
   for (std::size_t k = 0; k < 3; ++k)
     fade.background[static_cast<int>(k)] = 0.5f * (scene.background_top[k] + scene.background_bottom[k]);
   fade.nearest = view.nearest;
-  fade.depth = std::max(view.farthest - view.nearest, view.height);
+  fade.depth = scene.fades ? std::max(view.farthest - view.nearest, view.height) : 1e30f;
   return fade;
 }
 

@@ -1,5 +1,6 @@
 #include "viewer/worker/worker.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace patchlab::viewer {
@@ -69,9 +70,18 @@ std::optional<Worker::Status> Worker::running_order() const {
   return running_order_;
 }
 
+std::optional<double> Worker::running_preview() const {
+  const std::lock_guard lock(mutex_);
+  if (!running_preview_ || running_preview_->epoch != epoch_) return std::nullopt;
+  return running_preview_->fraction;
+}
+
 Worker::Task Worker::take() {
   running_ = true;
-  if (orders_.empty()) return *std::exchange(waiting_preview_, std::nullopt);
+  if (orders_.empty()) {
+    running_preview_ = RunningPreview{0.0, epoch_};
+    return *std::exchange(waiting_preview_, std::nullopt);
+  }
   Task task = std::move(orders_.front());
   orders_.pop_front();
   running_order_ = Status{task.name, 0.0};
@@ -81,9 +91,10 @@ Worker::Task Worker::take() {
 
 Progress Worker::progress_of(const Task& task) {
   return [this, is_order = task.is_order, epoch = task.epoch](double fraction) {
-    if (is_order) {
+    {
       const std::lock_guard lock(mutex_);
-      running_order_->fraction = fraction;
+      double& known = is_order ? running_order_->fraction : running_preview_->fraction;
+      known = std::max(known, fraction);
     }
     return !is_stale(is_order, epoch);
   };
@@ -100,6 +111,7 @@ void Worker::run() {
     lock.lock();
     running_ = false;
     running_order_.reset();
+    running_preview_.reset();
     finished_.push_back({std::move(finish), task.is_order, task.epoch});
     wake_();
   }

@@ -53,6 +53,8 @@ class Worker {
     double fraction = 0.0;
   };
   std::optional<Status> running_order() const;
+  // Fraction of the preview that runs; nothing where none does that anybody still wants.
+  std::optional<double> running_preview() const;
 
  private:
   struct Task {
@@ -78,6 +80,11 @@ class Worker {
   std::optional<Task> waiting_preview_;
   std::vector<Finished> finished_;
   std::optional<Status> running_order_;
+  struct RunningPreview {
+    double fraction = 0.0;
+    std::uint64_t epoch = 0;
+  };
+  std::optional<RunningPreview> running_preview_;
   bool running_ = false;
   std::atomic<bool> cancel_order_ = false;
   std::atomic<std::uint64_t> epoch_ = 0;

@@ -55,6 +55,20 @@ class CommandTest : public testing::Test {
   TestFolder folder_;
 };
 
+TEST_F(CommandTest, NothingIsWrittenWhereNobodyAsked) {
+  const std::filesystem::path home = folder_.path() / "home", here = folder_.path() / "here";
+  std::filesystem::create_directories(home);
+  std::filesystem::create_directories(here);
+  (void)folder_.ball();
+  const std::string line = "cd '" + here.string() + "' && env -u XDG_STATE_HOME -u XDG_CONFIG_HOME HOME='" +
+                           home.string() + "' '" PATCHLAB_VIEWER "' --headless " + path("ball.pcd") +
+                           "--screenshot " + path("ball.png") + "> /dev/null 2>&1";
+  EXPECT_EQ(std::system(line.c_str()), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "ball.png"));
+  EXPECT_TRUE(std::filesystem::is_empty(here));
+  EXPECT_TRUE(std::filesystem::is_empty(home));
+}
+
 TEST_F(CommandTest, WrongUsageIsTwo) {
   EXPECT_EQ(run("--size huge").status, 2);
   EXPECT_EQ(run("--version").status, 0);

@@ -47,6 +47,7 @@ class Program {
     ASSERT_TRUE(played) << played.error().message;
     settle();
   }
+  void resize(int width, int height) { platform_->resize(width, height); }
   Image image() { return platform_->read_image(); }
   // Also leaves the picture to be looked at.
   Image picture(const std::string& name) {

@@ -25,6 +25,8 @@ TEST_F(SettingsTest, ComeBackAsTheyWereWritten) {
   settings.robust = false;
   settings.layers.cone = false;
   settings.layers.offsets = true;
+  settings.map = ColourMap::cividis;
+  settings.widths = {200.0f, 500.0f};
   const std::filesystem::path file = folder_.path() / "made" / "patchlab" / "viewer.json";
   ASSERT_TRUE(write_settings(file, settings).ok());
   EXPECT_EQ(read_settings(file), settings);

@@ -16,7 +16,7 @@ namespace {
 // Whoever opens, saves or exports meets a file dialog, from where random input would reach any file.
 bool leads_to_files(Action action) {
   return action == Action::open_file || action == Action::save_journal_as ||
-         action == Action::export_patches || action == Action::quit;
+         action == Action::export_patches || action == Action::save_picture || action == Action::quit;
 }
 bool leads_to_files(const std::string& widget) { return widget == "menu/File" || widget == "inspector/open"; }
 
@@ -27,7 +27,11 @@ class Monkey {
   // A line or more of an input log.
   std::string next() {
     const double what = random_.uniform(0.0, 1.0);
-    if (program_.app().widgets().contains("help/close")) return "key Esc\n";
+    for (const char* sheet : {"help/close", "messages/close"}) {
+      if (program_.app().widgets().contains(sheet)) return "key Esc\n";
+    }
+    // Its rows lead to files too.
+    if (program_.app().widgets().contains("palette/text")) return "key Esc\n";
     if (what < 0.12) return "key L\ndrag " + around_the_middle() + "wait\n";
     if (what < 0.16) return "key G\nclick " + any_place() + "\nwait\n";
     if (what < 0.24) return "key Enter\nwait\n";

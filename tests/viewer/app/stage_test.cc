@@ -92,10 +92,9 @@ TEST_F(StageTest, ThePointsOfTheChosenPatchAreDrawnApartAndOutliersFlagged) {
   update();
   ASSERT_EQ(stage.scene().points.size(), 2u);
   EXPECT_EQ(colour(0)[3], 0);
-  EXPECT_EQ(colour(1)[3], 0);
+  EXPECT_EQ(colour(1), to_bytes(theme(state.theme).point_outlier));
   const std::vector<Rgba8>& own = *stage.scene().points[1].colours;
   EXPECT_EQ(own[0], to_bytes(theme(state.theme).point_selected));
-  EXPECT_EQ(own[1], to_bytes(theme(state.theme).point_outlier));
 }
 
 TEST_F(StageTest, ResidualsAreBlueBelowAndOrangeAbove) {
@@ -215,10 +214,50 @@ TEST_F(StageTest, PointsAreColouredByTheirHeightAlongTheAxisOfTheTurntable) {
   update();
   EXPECT_EQ(colour(0), to_bytes(sequential(0.0)));
   EXPECT_EQ(colour(3), to_bytes(sequential(1.0)));
-  const std::optional<Eigen::Vector2d> ends = stage.notes(ViewCamera{}).point_heights;
-  ASSERT_TRUE(ends);
-  EXPECT_NEAR(ends->x(), 0.0, 1e-6);
-  EXPECT_NEAR(ends->y(), 0.3, 1e-6);
+  const auto bar = stage.notes(ViewCamera{}).points;
+  ASSERT_TRUE(bar);
+  EXPECT_STREQ(bar->title, "height, m");
+  EXPECT_NEAR(bar->range.x(), 0.0, 1e-6);
+  EXPECT_NEAR(bar->range.y(), 0.3, 1e-6);
+}
+
+TEST_F(StageTest, PointsAreColouredByTheirNoiseOnceItIsKnown) {
+  document.regions.clear();
+  state.colours = PointColours::noise;
+  update();
+  EXPECT_FALSE(stage.notes(ViewCamera{}).points);
+  ScanEntry& entry = document.scans[0];
+  entry.noise = *noise_model("isotropic:0.002");
+  stage.set_sigmas(entry, noise_sigmas(*entry.scan, entry.noise));
+  update();
+  const auto bar = stage.notes(ViewCamera{}).points;
+  ASSERT_TRUE(bar);
+  EXPECT_STREQ(bar->title, "noise σ, mm");
+  EXPECT_NEAR(bar->range.x(), 2.0, 1e-4);
+}
+
+TEST_F(StageTest, ShapeAndPoseAreDrawnApart) {
+  add_sphere();
+  const Patch& patch = document.patches[0].fit->patch;
+  const Patch shape = with_part(patch, SigmaOf::shape), pose = with_part(patch, SigmaOf::pose);
+  const auto n = patch.type->rotation_at();
+  EXPECT_TRUE(shape.covariance_local->bottomRightCorner(5, 5).isZero(0));
+  EXPECT_EQ(shape.covariance_local->topLeftCorner(n, n), patch.covariance_local->topLeftCorner(n, n));
+  EXPECT_TRUE(pose.covariance_local->topLeftCorner(n, n).isZero(0));
+  EXPECT_EQ(pose.covariance_local->bottomRightCorner(5, 5), patch.covariance_local->bottomRightCorner(5, 5));
+  state.selected = "patch-1";
+  state.sigma_of = SigmaOf::pose;
+  update();
+  EXPECT_NE(stage.notes(ViewCamera{}).lines.back().find("pose alone"), std::string::npos);
+}
+
+TEST_F(StageTest, EllipsoidsOfPointsSayHowManyAndHowMuchLarger) {
+  add_sphere();
+  document.scans[0].noise = *noise_model("isotropic:0.002");
+  state.selected = "patch-1";
+  state.layers.points = true;
+  update();
+  EXPECT_TRUE(stage.notes(ViewCamera{}).lines.back().starts_with("95 % ellipsoids of "));
 }
 
 TEST_F(StageTest, PointsAreColouredByTheirLabelsAndPlainWhereThereIsNone) {

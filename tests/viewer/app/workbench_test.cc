@@ -1,54 +1,11 @@
-#include "viewer/app/workbench.h"
+#include "tests/viewer/app/workbench_fixture.h"
 
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "engine/patch/patch.h"
-#include "tests/support/file_size_limit.h"
-#include "tests/viewer/app/ball_scan.h"
-#include "viewer/app/journal_file.h"
-#include "viewer/camera/orbit_camera.h"
 
 namespace patchlab::viewer {
 namespace {
-
-class WorkbenchTest : public testing::Test {
- protected:
-  WorkbenchTest() {
-    bench_.choose({SurfaceRequest::sphere, true});
-    bench_.open(folder_.ball());
-    finish();
-  }
-
-  void finish() {
-    while (!bench_.idle()) {
-      bench_.deliver();
-      std::this_thread::yield();
-    }
-    bench_.deliver();
-    for (const Error& error : bench_.take_errors()) errors_.push_back(error.message);
-  }
-
-  // A square of the screen of the sensor: the ball is 39 pixels wide there.
-  Stroke square(double half_width, SelectMode mode = SelectMode::set) const {
-    const ViewCamera camera = view_camera(from_sensor({}, 0.8, 2 * std::atan(120 / 262.5)), 320, 240);
-    const double h = half_width;
-    return {mode, {{160 - h, 120 - h}, {160 + h, 120 - h}, {160 + h, 120 + h}, {160 - h, 120 + h}}, camera};
-  }
-  Document kept() const { return bench_.session().document(); }
-
-  TestFolder folder_;
-  std::vector<std::string> errors_;
-  Workbench bench_{{folder_.path() / "state", true}, [] {}};
-};
-
-TEST_F(WorkbenchTest, AScanThatIsOpenedBeginsAJournal) {
-  ASSERT_EQ(kept().scans.size(), 1u);
-  EXPECT_EQ(bench_.session().journal().parent_path(), folder_.path() / "state");
-  EXPECT_EQ(bench_.session().history().size(), 1u);
-  EXPECT_EQ(bench_.take_selection(), "scan-1");
-}
 
 TEST_F(WorkbenchTest, APreviewIsShownButNotRecorded) {
   bench_.preview(square(13));
@@ -227,40 +184,6 @@ TEST_F(WorkbenchTest, NothingIsSelectedFromAScanThatIsHidden) {
   EXPECT_EQ(bench_.take_notices().size(), 1u);
 }
 
-TEST_F(WorkbenchTest, AJournalThatIsOpenInAnotherProgramIsToldAndLeftAlone) {
-  Workbench other{{folder_.path() / "state", true}, [] {}};
-  other.open(bench_.session().journal());
-  while (!other.idle()) {
-    other.deliver();
-    std::this_thread::yield();
-  }
-  const std::vector<Error> errors = other.take_errors();
-  ASSERT_EQ(errors.size(), 1u);
-  EXPECT_NE(errors[0].message.find("is open in another patchlab"), std::string::npos) << errors[0].message;
-  EXPECT_TRUE(other.document().scans.empty());
-}
-
-TEST_F(WorkbenchTest, AFullDiskIsToldAtOnceAndNothingIsShownAsDone) {
-  bench_.select(square(13));
-  finish();
-  const std::vector<std::uint32_t> before = *kept().regions.at(0).points;
-  {
-    const test::FileSizeLimit limit(std::filesystem::file_size(bench_.session().journal()) + 10);
-    bench_.select(square(8));
-    finish();
-    bench_.keep();
-    finish();
-  }
-  ASSERT_EQ(errors_.size(), 2u);
-  EXPECT_NE(errors_[0].find("the last action was not done"), std::string::npos) << errors_[0];
-  EXPECT_EQ(*kept().regions.at(0).points, before);
-  EXPECT_TRUE(kept().patches.empty());
-  EXPECT_EQ(bench_.currency(), Currency::current);
-  bench_.keep();
-  finish();
-  EXPECT_EQ(replay(bench_.session().journal())->patches.size(), 1u) << "there is room again";
-}
-
 TEST_F(WorkbenchTest, TakingAwayFromNothingIsToldAndChangesNothing) {
   (void)bench_.take_notices();
   bench_.select(square(13, SelectMode::subtract));
@@ -324,98 +247,52 @@ TEST_F(WorkbenchTest, ADeletedPatchDoesNotComeBackByItself) {
   EXPECT_TRUE(bench_.document().patches.empty());
 }
 
-TEST_F(WorkbenchTest, AFileThatCannotBeReadIsToldAndTheSessionStays) {
-  bench_.open(folder_.path() / "missing.pcd");
-  finish();
-  ASSERT_EQ(errors_.size(), 1u);
-  EXPECT_NE(errors_[0].find("missing.pcd"), std::string::npos);
-  EXPECT_EQ(kept().scans.size(), 1u);
-}
-
-TEST_F(WorkbenchTest, ThePatchesAreExportedAndTheJournalIsCopiedWithItsScanStillFound) {
-  bench_.select(square(13));
-  bench_.keep();
-  finish();
-  bench_.write_patches({"patch_set", folder_.path() / "set.json"});
-  std::filesystem::create_directories(folder_.path() / "a" / "b");
-  bench_.save_journal(folder_.path() / "a" / "b" / "copy.patchlab");
-  finish();
-  EXPECT_TRUE(errors_.empty()) << errors_[0];
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "set.json"));
-  const Result<Document> replayed = replay(folder_.path() / "a" / "b" / "copy.patchlab");
-  ASSERT_TRUE(replayed) << replayed.error().message;
-  EXPECT_EQ(replayed->patches.size(), 1u);
-}
-
-TEST_F(WorkbenchTest, AJournalOfTheFolderIsGoneOnWithWhereItEnded) {
-  bench_.select(square(13));
-  bench_.keep();
-  finish();
-  const std::filesystem::path journal = bench_.session().journal();
-  const std::filesystem::path copy = folder_.path() / "state" / "copy.patchlab";
-  ASSERT_TRUE(copy_journal(journal, copy));
-  bench_.open(copy);
-  finish();
-  EXPECT_TRUE(errors_.empty()) << errors_[0];
-  EXPECT_EQ(bench_.session().journal(), copy);
-  EXPECT_EQ(kept().patches.size(), 1u);
-  EXPECT_EQ(bench_.session().history().size(), 3u);
-  EXPECT_EQ(bench_.take_selection(), "patch-1");
-}
-
-TEST_F(WorkbenchTest, AJournalFromElsewhereStaysAsItIsAndACopyIsGoneOnWith) {
-  bench_.select(square(13));
-  bench_.keep();
-  finish();
-  const std::filesystem::path other = folder_.path() / "other.patchlab";
-  ASSERT_TRUE(copy_journal(bench_.session().journal(), other));
-  const Bytes before = *read_file(other);
-  bench_.take_notices();
-  bench_.open(other);
-  finish();
-  ASSERT_TRUE(errors_.empty()) << errors_[0];
-  const std::filesystem::path journal = bench_.session().journal();
-  EXPECT_EQ(journal.parent_path(), folder_.path() / "state");
-  const std::vector<std::string> notices = bench_.take_notices();
-  ASSERT_EQ(notices.size(), 1u);
-  EXPECT_NE(notices[0].find(journal.string()), std::string::npos) << notices[0];
-
-  bench_.run(Rename{"patch-1", "ball"});
-  EXPECT_EQ(*read_file(other), before);
-  const Result<Document> replayed = replay(journal);
-  ASSERT_TRUE(replayed) << replayed.error().message;
-  EXPECT_EQ(replayed->patches.at(0).name, "ball");
-}
-
-TEST_F(WorkbenchTest, AJournalThatCannotBeReplayedLeavesNoCopy) {
-  const std::filesystem::path other = folder_.path() / "other.patchlab";
-  ASSERT_TRUE(write_file(other, journal_header() + "\n{\"do\": \"delete\", \"target\": \"scan-9\"}\n"));
-  const auto journals = [this] {
-    return std::distance(std::filesystem::directory_iterator(folder_.path() / "state"), {});
-  };
-  const auto before = journals();
-  bench_.open(other);
-  finish();
-  EXPECT_EQ(errors_.size(), 1u);
-  EXPECT_EQ(journals(), before);
-}
-
-TEST(WorkbenchWithoutJournals, LeavesTheJournalItShowsAsItIs) {
-  const TestFolder folder;
-  std::filesystem::path journal;
-  {
-    Workbench bench({folder.path(), true}, [] {});
-    bench.open(folder.ball());
-    while (!bench.idle()) bench.deliver();
-    journal = bench.session().journal();
+TEST_F(WorkbenchTest, ALargeRegionIsFittedToSomePointsAtOnceAndThenToAll) {
+  bench_.choose({SurfaceRequest::plane, true});
+  bench_.select(wall());
+  std::size_t previewed = 0, one_in = 1;
+  while (!bench_.idle()) {
+    bench_.deliver();
+    if (bench_.currency() != Currency::preview || previewed > 0) continue;
+    previewed = bench_.document().patches.at(0).fit->report.points;
+    one_in = bench_.fitted_one_in();
+    EXPECT_GT(bench_.document().regions.at(0).points->size(), 20'000u) << "the region is whole";
   }
-  const Bytes before = *read_file(journal);
-  Workbench bench({folder.path(), false}, [] {});
-  bench.open(journal);
-  while (!bench.idle()) bench.deliver();
-  bench.run(Rename{"scan-1", "another"});
-  EXPECT_EQ(bench.document().scans.at(0).name, "another");
-  EXPECT_EQ(*read_file(journal), before);
+  finish();
+  EXPECT_GT(one_in, 1u);
+  EXPECT_GT(previewed, 100u);
+  EXPECT_EQ(bench_.currency(), Currency::current);
+  EXPECT_EQ(bench_.fitted_one_in(), 1u);
+  EXPECT_GT(bench_.document().patches.at(0).fit->report.points, 2 * previewed);
+}
+
+TEST_F(WorkbenchTest, AStoppedFitLeavesItsPreviewAndKeepingFitsAll) {
+  bench_.choose({SurfaceRequest::plane, true});
+  bench_.select(wall());
+  while (bench_.currency() != Currency::preview) bench_.deliver();
+  bench_.cancel_work();
+  finish();
+  EXPECT_EQ(bench_.currency(), Currency::preview);
+  EXPECT_TRUE(kept().patches.empty());
+  bench_.keep();
+  finish();
+  ASSERT_EQ(kept().patches.size(), 1u);
+  EXPECT_GT(kept().patches[0].fit->report.points, 20'000u) << "what is recorded is the fit of all points";
+}
+
+TEST_F(WorkbenchTest, AfterAScanIsDeletedTheSameViewSelectsFromWhatIsLeft) {
+  bench_.open(folder_.ball());
+  Stroke stroke = square(13);
+  stroke.visible_only = true;
+  bench_.select(stroke);
+  finish();
+  EXPECT_EQ(kept().regions.at(0).scan, "scan-2");
+  bench_.run(Delete{"scan-2"});
+  bench_.select(stroke);
+  finish();
+  ASSERT_EQ(kept().regions.size(), 1u);
+  EXPECT_EQ(kept().regions[0].scan, "scan-1");
+  EXPECT_GT(kept().regions[0].points->size(), 300u);
 }
 
 }  // namespace

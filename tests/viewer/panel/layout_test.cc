@@ -34,6 +34,21 @@ TEST_P(LayoutTest, ThePanelsTileTheWindow) {
   EXPECT_DOUBLE_EQ(area, static_cast<double>(size.first) * size.second);
 }
 
+TEST_P(LayoutTest, ThePanelsAreAsWideAsTheyWereDraggedWhereThereIsRoom) {
+  const auto [size, scale] = GetParam();
+  const Layout layout = make_layout(size.first, size.second, scale, {200.0f, 300.0f});
+  EXPECT_LE(layout.tree.width, 200.0f * scale);
+  EXPECT_LE(layout.inspector.width, 300.0f * scale);
+  if (size.first > 1000 * scale) EXPECT_EQ(layout.inspector.width, 300.0f * scale);
+}
+
+TEST_P(LayoutTest, TheViewAloneFillsTheWindow) {
+  const auto [size, scale] = GetParam();
+  const Layout layout = make_layout(size.first, size.second, scale, {.side_panels = false, .bars = false});
+  EXPECT_EQ(layout.view.width, size.first);
+  EXPECT_EQ(layout.view.height, size.second);
+}
+
 TEST_P(LayoutTest, TheViewKeepsAThirdOfTheWidth) {
   const auto [size, scale] = GetParam();
   EXPECT_GE(make_layout(size.first, size.second, scale).view.width, size.first / 3);

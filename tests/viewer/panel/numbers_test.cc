@@ -21,6 +21,16 @@ TEST(Measured, ChangesItsUnitWithItsSize) {
   EXPECT_EQ(sigma_text(0.52, Dimension::angle), "± 30 °");
 }
 
+TEST(Measured, GivesTheStandardDeviationInTheUnitOfTheValueUnlessItIsTinyThere) {
+  EXPECT_EQ(measured(49.39, 0.6, Dimension::length).sigma, "± 0.60 m");
+  EXPECT_EQ(measured(1.5, 0.00002, Dimension::length).sigma, "± 0.020 mm");
+}
+
+TEST(Duration, IsInMillisecondsBelowASecond) {
+  EXPECT_EQ(duration(0.0009), "0.90 ms");
+  EXPECT_EQ(duration(30.3), "30 s");
+}
+
 TEST(Measured, AnExactNumberIsGivenToThreeDecimals) {
   EXPECT_EQ(measured(0.05, 0.0, Dimension::length).value, "50.000 mm");
 }
