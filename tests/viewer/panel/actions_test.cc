@@ -12,7 +12,7 @@ TEST(Actions, EveryActionHasExactlyOneRow) {
   std::set<Action> seen;
   for (const ActionRow& action : action_table())
     EXPECT_TRUE(seen.insert(action.action).second) << action.name;
-  EXPECT_EQ(seen.size(), static_cast<std::size_t>(Action::help) + 1);
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(Action::messages) + 1);
 }
 
 TEST(Actions, NoTwoActionsShareAKey) {

@@ -39,7 +39,9 @@ TEST_P(LayoutTest, ThePanelsAreAsWideAsTheyWereDraggedWhereThereIsRoom) {
   const Layout layout = make_layout(size.first, size.second, scale, {200.0f, 300.0f});
   EXPECT_LE(layout.tree.width, 200.0f * scale);
   EXPECT_LE(layout.inspector.width, 300.0f * scale);
-  if (size.first > 1000 * scale) EXPECT_EQ(layout.inspector.width, 300.0f * scale);
+  if (size.first > 1000 * scale) {
+    EXPECT_EQ(layout.inspector.width, 300.0f * scale);
+  }
 }
 
 TEST_P(LayoutTest, TheViewAloneFillsTheWindow) {
