@@ -210,10 +210,10 @@ void App::show_measured() {
   state_.measured = line;
 }
 
-bool App::settled() const { return workbench_.idle() && !stage_.flying(); }
+bool App::settled() const { return workbench_.idle() && !stage_.flying() && budget_.one_in == 1; }
 
 double App::patience() const {
-  if (stage_.flying()) return 0.0;
+  if (stage_.flying() || budget_.one_in > 1) return 0.0;
   return state_.toasts.empty() && !state_.busy && !state_.fit_runs ? idle_patience : toast_patience;
 }
 
@@ -240,22 +240,14 @@ void App::frame() {
 void App::draw() {
   const float scale = platform_.scale();
   stage_.update(workbench_.document(), state_, workbench_.changes(), scale);
-  stage_.size_points(layout_.view.height, state_.point_size * scale);
+  stage_.size_points(layout_.view.height, state_.point_size * scale, points_one_in());
   make_sigmas();
   const ViewCamera camera = view();
   state_.notes = stage_.notes(camera);
   state_.drawing = lasso_.drawing();
   state_.contour = lasso_.contour(camera);
   show_measured();
-  const Rect& view = layout_.view;
-  Scene scene = stage_.scene();
-  if (ground_) {
-    scene.background_top = scene.background_bottom = *ground_;
-    scene.fades = false;
-  }
-  renderer_.draw(scene, camera,
-                 {static_cast<int>(view.x), platform_.height() - static_cast<int>(view.bottom()),
-                  static_cast<int>(view.width), static_cast<int>(view.height)});
+  draw_scene(camera);
   WidgetMap widgets;
   const Gui gui{theme(state_.theme), platform_.fonts(), scale, &widgets};
   Requests requests;

@@ -80,6 +80,10 @@ class App {
   Image shot(std::optional<Rgba> ground);
   void save_picture(const PictureRequest& request);
 
+  // frame_budget.cc
+  std::size_t points_one_in();
+  void draw_scene(const ViewCamera& camera);
+
   double aspect() const;
   ViewCamera view() const;
 
@@ -136,6 +140,13 @@ class App {
   Navigation navigation_;
   std::optional<Eigen::Vector2d>
       pressed_;  // px, where the left button went down to navigate: a click if it stays there
+  struct FrameBudget {
+    ViewCamera drawn;        // the camera of the last frame
+    double moved_at = -1e9;  // s, of ImGui's clock
+    double per_point = 0.0;  // s, as the last frame took
+    std::size_t one_in = 1;  // of the points, in the last frame
+  };
+  FrameBudget budget_;
   std::vector<MeasuredPoint> measured_;
   std::optional<PictureOptions> picture_;  // while one is taken: no input, no requests
   std::optional<Rgba> ground_;             // behind the scene, in place of the theme's

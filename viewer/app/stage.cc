@@ -87,12 +87,20 @@ double Stage::metres_per_pixel(double viewport_height) const {
   return 2 * camera.distance * std::tan(0.5 * camera.fov_y) / viewport_height;
 }
 
-void Stage::size_points(double viewport_height, float least) {
+std::size_t Stage::points() const {
+  std::size_t count = 0;
+  for (const PointsItem& item : scene_.points) count += item.positions->size();
+  return count;
+}
+
+void Stage::size_points(double viewport_height, float least, std::size_t one_in) {
+  const double wider = std::sqrt(static_cast<double>(one_in));
   for (std::size_t i = 0; i < scene_.points.size(); ++i) {
-    const double apart = drawn_points_[i].apart / metres_per_pixel(viewport_height);
+    const double apart = wider * drawn_points_[i].apart / metres_per_pixel(viewport_height);
     const auto suits = static_cast<float>(drawn_points_[i].share * apart);
     scene_.points[i].size = std::clamp(suits, least, most_larger * least);
-    if (drawn_points_[i].thinned) scene_.points[i].step = every(chosen_apart * least / apart);
+    scene_.points[i].step = one_in;
+    if (drawn_points_[i].thinned) scene_.points[i].step *= every(chosen_apart * least / apart);
   }
 }
 

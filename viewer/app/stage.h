@@ -22,8 +22,10 @@ class Stage {
   // Makes the scene anew where `generation` or what the state says of the picture has changed.
   void update(const Document& document, const ViewState& state, std::uint64_t generation, float scale);
   const Scene& scene() const { return scene_; }
-  // Points as large as suits their distance from each other on the screen, but at least `least` pixels.
-  void size_points(double viewport_height, float least);
+  // Points as large as suits their distance from each other on the screen, but at least `least` pixels. Of
+  // many, one in `one_in` is drawn, that much larger.
+  void size_points(double viewport_height, float least, std::size_t one_in = 1);
+  std::size_t points() const;  // of the scene
   // Notes for the overlays, with labels where `view` sees them.
   SceneNotes notes(const ViewCamera& view) const;
 

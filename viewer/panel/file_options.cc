@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "engine/io/export.h"
+#include "engine/export/export.h"
 #include "viewer/panel/file_dialog.h"
 #include "viewer/panel/numbers.h"
 #include "viewer/panel/panels.h"
@@ -56,17 +56,21 @@ void FileDialog::make_preview(const PanelInput& in) {
   if (preview_of_ == static_cast<int>(format_)) return;
   preview_of_ = static_cast<int>(format_);
   const Document document = without_draft(in.document, in.state.draft);
-  const ExportFormat& format = export_formats()[format_];
-  const Result<std::string> bytes = format.write(patch_set(document));
+  const Result<Exported> made = export_formats()[format_].write(patch_set(document), {});
   preview_ = {patch_words(document)};
-  if (!bytes) {
-    preview_.push_back(bytes.error().message);
+  if (!made) {
+    preview_.push_back(made.error().message);
     return;
   }
-  preview_.front() += "  ·  " + size_words(bytes->size());
-  if (!is_text(*bytes)) return;
-  const std::vector<std::string> lines = first_lines(*bytes);
+  std::uintmax_t size = 0;
+  for (const ExportedFile& file : made->files) size += file.bytes.size();
+  preview_.front() += "  ·  " + size_words(size);
+  if (made->files.size() > 1) preview_.front() += " in " + count(made->files.size()) + " files";
+  preview_.insert(preview_.end(), made->notices.begin(), made->notices.end());
+  if (made->files.empty() || !is_text(made->files.front().bytes)) return;
+  const std::vector<std::string> lines = first_lines(made->files.front().bytes);
   preview_.insert(preview_.end(), lines.begin(), lines.end());
+  preview_.resize(std::min(preview_.size(), lines_shown + 1));
 }
 
 void FileDialog::draw_formats(const PanelInput& in) {
@@ -84,7 +88,9 @@ void FileDialog::draw_formats(const PanelInput& in) {
     tooltip(gui, formats[i].description);
   }
   make_preview(in);
-  paragraph(gui, gui.theme.text, std::string(formats[format_].description));
+  paragraph(gui, gui.theme.text,
+            std::string(formats[format_].description) +
+                "; covariance: " + std::string(formats[format_].covariance));
   paragraph(gui, gui.theme.text_dim, preview_.front());
   const float width = ImGui::GetContentRegionAvail().x - gui.px(16);
   const ImVec2 at = ImGui::GetCursorScreenPos();

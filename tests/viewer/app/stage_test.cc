@@ -236,6 +236,17 @@ TEST_F(StageTest, PointsAreColouredByTheirNoiseOnceItIsKnown) {
   EXPECT_NEAR(bar->range.x(), 2.0, 1e-4);
 }
 
+TEST_F(StageTest, WhileTheCameraMovesFewerPointsAreDrawn) {
+  update();
+  stage.size_points(600, 2.0f);
+  EXPECT_EQ(stage.scene().points[0].step, 1u);
+  EXPECT_EQ(stage.points(), 4u);
+  stage.size_points(600, 2.0f, 7);
+  EXPECT_EQ(stage.scene().points[0].step, 7u);
+  stage.size_points(600, 2.0f);
+  EXPECT_EQ(stage.scene().points[0].step, 1u) << "all of them when it stands still";
+}
+
 TEST_F(StageTest, ShapeAndPoseAreDrawnApart) {
   add_sphere();
   const Patch& patch = document.patches[0].fit->patch;
