@@ -38,15 +38,19 @@ Error unreadable(const std::string& name, const std::string& why) {
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MB"; }
 
-Result<Bytes> read_to_end(int descriptor, const std::string& name, std::uint64_t limit,
-                          std::size_t expected) {
+constexpr std::size_t bytes_a_read = std::size_t{8} << 20;
+
+Result<Bytes> read_to_end(int descriptor, const std::string& name, std::uint64_t limit, std::size_t expected,
+                          const Progress& progress) {
   Bytes bytes;
   reserve_large(bytes, expected);
   bytes.resize(expected);
   std::size_t used = 0;
   for (;;) {
     if (used == bytes.size()) bytes.resize(used + std::max<std::size_t>(used / 2, 1 << 16));
-    const ssize_t got = ::read(descriptor, bytes.data() + used, bytes.size() - used);
+    const double share = expected > 0 ? static_cast<double>(used) / static_cast<double>(bytes.size()) : 0.0;
+    if (!keep_going(progress, share)) return Error{ErrorCode::cancelled, name + ": reading was cancelled."};
+    const ssize_t got = ::read(descriptor, bytes.data() + used, std::min(bytes.size() - used, bytes_a_read));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return unreadable(name, "cannot be read: " + reason() + ".");
     if (got == 0) break;
@@ -78,8 +82,8 @@ Result<void> write_in_place(const std::filesystem::path& file, std::string_view 
 
 }  // namespace
 
-Result<Bytes> read_file(const std::filesystem::path& file, std::uint64_t limit) {
-  if (file == "-") return read_to_end(STDIN_FILENO, "standard input", limit, 0);
+Result<Bytes> read_file(const std::filesystem::path& file, std::uint64_t limit, const Progress& progress) {
+  if (file == "-") return read_to_end(STDIN_FILENO, "standard input", limit, 0, progress);
   const std::string name = file.string();
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return unreadable(name, "cannot be opened: " + reason() + ".");
@@ -93,7 +97,7 @@ Result<Bytes> read_file(const std::filesystem::path& file, std::uint64_t limit) 
   }
   Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (descriptor.number() < 0) return unreadable(name, "cannot be opened: " + reason() + ".");
-  return read_to_end(descriptor.number(), name, limit, size + 1);
+  return read_to_end(descriptor.number(), name, limit, size + 1, progress);
 }
 
 Result<void> write_file(const std::filesystem::path& file, std::string_view bytes) {

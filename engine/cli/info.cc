@@ -5,12 +5,15 @@
 #include "engine/cli/output.h"
 #include "engine/cli/verb.h"
 #include "engine/io/read_scan.h"
+#include "engine/io/scan_size.h"
 #include "engine/scan/survey.h"
 
 namespace patchlab {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr std::uint64_t worth_saying = std::uint64_t{64} << 20;  // bytes, before they are taken
 
 struct InfoRequest {
   std::string scan;
@@ -20,7 +23,13 @@ struct InfoRequest {
 
 ordered_json list(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-ordered_json to_json(const Scan& scan) {
+using Size = std::optional<ScanSize>;
+
+std::string memory_of(const ScanSize& size) {
+  return (size.exact ? "" : "about ") + std::to_string((size.bytes + (1 << 20) - 1) >> 20) + " MB";
+}
+
+ordered_json to_json(const Scan& scan, const Size& size) {
   ordered_json fields = ordered_json::array();
   for (const FieldInfo& field : scan.fields) {
     fields.push_back({{"name", field.name}, {"type", field.type}, {"count", field.count}});
@@ -41,19 +50,21 @@ ordered_json to_json(const Scan& scan) {
           {"viewpoint",
            {{"position", list(scan.viewpoint.position)},
             {"quaternion_xyzw", scan.viewpoint.quaternion_xyzw},
-            {"stated", scan.viewpoint.stated}}},
+            {"stated", scan.viewpoint.stated},
+            {"per_point", !scan.viewpoints.empty()}}},
           {"bounds", box},
           {"unit", "m"},
           {"covariance", !scan.covariances.empty()},
           {"labels", !scan.labels.empty()},
           {"duplicates", found.duplicates},
           {"far_outliers", found.far_outliers},
+          {"memory_bytes", size ? ordered_json(size->bytes) : ordered_json(nullptr)},
           {"notices", scan.notices}};
 }
 
 // A file name need not be UTF-8, JSON must be: what is not becomes U+FFFD.
-std::string json_text_of(const Scan& scan) {
-  return to_json(scan).dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+std::string json_text_of(const Scan& scan, const Size& size) {
+  return to_json(scan, size).dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string spaced(const ordered_json& numbers) {
@@ -71,8 +82,8 @@ std::string fields_of(const Scan& scan) {
   return text;
 }
 
-std::string to_text(const Scan& scan) {
-  const ordered_json json = to_json(scan);
+std::string to_text(const Scan& scan, const Size& size) {
+  const ordered_json json = to_json(scan, size);
   const auto line = [](const char* what, const std::string& value) {
     return std::string(what) + value + "\n";
   };
@@ -81,9 +92,10 @@ std::string to_text(const Scan& scan) {
   text += line("points      ", std::to_string(scan.size()) + ", " + std::to_string(scan.finite_count) +
                                    " finite" + (scan.organized() ? ", grid of " + grid : ""));
   text += line("fields      ", fields_of(scan));
-  text += line("viewpoint   ", spaced(json["viewpoint"]["position"]) + " m, quaternion xyzw " +
-                                   spaced(json["viewpoint"]["quaternion_xyzw"]) +
-                                   (scan.viewpoint.stated ? "" : " (assumed)"));
+  const std::string one_viewpoint = spaced(json["viewpoint"]["position"]) + " m, quaternion xyzw " +
+                                    spaced(json["viewpoint"]["quaternion_xyzw"]) +
+                                    (scan.viewpoint.stated ? "" : " (assumed)");
+  text += line("viewpoint   ", scan.viewpoints.empty() ? one_viewpoint : "one a point");
   if (const ordered_json& box = json["bounds"]; !box.is_null()) {
     text += line("bounds      ", spaced(box["min"]) + " to " + spaced(box["max"]) + " m");
   }
@@ -94,6 +106,7 @@ std::string to_text(const Scan& scan) {
     text += line("outliers    ", json["far_outliers"].dump() +
                                      " points are ten times farther from the middle than nine tenths of all");
   }
+  if (size) text += line("memory      ", memory_of(*size) + " to open it");
   for (const std::string& notice : scan.notices) text += line("notice      ", notice);
   return text;
 }
@@ -103,10 +116,13 @@ Result<int> info(const InfoRequest& request) {
   ReadOptions options;
   options.progress = line.progress();
   if (const Result<void> told = tell(request.flags, options); !told) return told.error();
+  const std::optional<ScanSize> size = foresee_scan(request.scan);
+  if (size && size->bytes >= worth_saying)
+    say(request.scan + ": opening it takes " + memory_of(*size) + " of memory.");
   const Result<Scan> scan = read_scan(request.scan, options);
   if (!scan) return scan.error();
   Outputs outputs;
-  outputs.add("-", request.json ? json_text_of(*scan) : to_text(*scan));
+  outputs.add("-", request.json ? json_text_of(*scan, size) : to_text(*scan, size));
   return outputs.write();
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/io/json.h"
+#include "engine/io/read_error.h"
 #include "engine/io/text_numbers.h"
 
 namespace patchlab {
@@ -39,10 +40,10 @@ Result<Ids> parse_region(std::string_view text, const std::string& name) {
     std::uint32_t id = 0;
     const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), id);
     if (error != std::errc() || rest != line.data() + line.size()) {
-      return Error{ErrorCode::unreadable,
-                   name + ": line " + std::to_string(number) + ": '" + std::string(line.substr(0, 40)) +
-                       "' is no point index; write one a line, counted from 0, or JSON "
-                       "{\"indices\": [...]}."};
+      return unreadable_line(name, number,
+                             shown(line) +
+                                 " is no point index; write one a line, counted from 0, or JSON "
+                                 "{\"indices\": [...]}.");
     }
     ids.push_back(id);
   }

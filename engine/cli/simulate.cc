@@ -22,8 +22,10 @@ Result<int> simulate_scene(const SimulateRequest& request) {
   if (!checked) return checked.error();
   const Result<Bytes> bytes = read_file(request.scene);
   if (!bytes) return bytes.error();
+  const bool is_input = request.scene == "-";
   const Result<SceneDescription> scene =
-      read_scene(as_text(*bytes), request.scene == "-" ? "standard input" : request.scene);
+      read_scene(as_text(*bytes), is_input ? "standard input" : request.scene,
+                 is_input ? std::filesystem::path() : std::filesystem::path(request.scene).parent_path());
   if (!scene) return scene.error();
   const Result<SimulatedScene> simulated = simulate(*scene, request.noise, request.seed);
   if (!simulated) return simulated.error();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "engine/io/read_error.h"
@@ -42,8 +43,13 @@ Covariances from_components(const std::array<const Column*, 6>& components, cons
 Covariances from_deviations(const Column& range, const Column& lateral, const CovarianceFrame& frame) {
   const std::vector<double> along = values(range, frame.rays.size()),
                             across = values(lateral, frame.rays.size());
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Covariances covariances(frame.rays.size());
   for (std::size_t i = 0; i < covariances.size(); ++i) {
+    if (along[i] < 0.0 || across[i] < 0.0) {
+      covariances[i].fill(nan);  // no deviation, so no covariance
+      continue;
+    }
     const Eigen::Vector3d w = frame.rays[i].normalized();
     const double variance = across[i] * across[i];
     covariances[i] = upper_triangle(variance * Eigen::Matrix3d::Identity() +

@@ -93,6 +93,7 @@ Result<void> check_sides(const std::string& name, std::uint64_t width, std::uint
 }
 
 Result<DepthImage> decode_pgm(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  if (!is_pgm(bytes)) return unreadable(name, "is neither a PNG picture nor a binary PGM one.");
   std::string_view rest = bytes.substr(2);
   const auto width = next_number(rest), height = next_number(rest), largest = next_number(rest);
   if (!width || !height || !largest || rest.empty())

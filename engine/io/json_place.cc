@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/printable.h"
 #include "engine/io/json.h"
 
 namespace patchlab {
@@ -129,7 +130,8 @@ Eigen::MatrixXd JsonPlace::square_matrix(Eigen::Index size) const {
 void JsonPlace::fail(const std::string& what) const {
   if (*error_) return;
   const std::string place = path_.empty() ? "the file" : path_;
-  *error_ = Error{ErrorCode::unreadable, file_ + ": " + place + " " + what + (what.back() == '.' ? "" : ".")};
+  *error_ = Error{ErrorCode::unreadable,
+                  file_ + ": " + printable(place + " " + what) + (what.back() == '.' ? "" : ".")};
 }
 
 JsonPlace JsonPlace::nowhere() const {

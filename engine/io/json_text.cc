@@ -1,6 +1,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/base/printable.h"
 #include "engine/io/json.h"
 
 namespace patchlab {
@@ -12,35 +13,50 @@ using nlohmann::ordered_json;
 constexpr std::size_t line_width = 110;
 constexpr int deepest = 64;
 
-// Watches a parse for what nlohmann lets pass: members that stand twice, and nesting that would exhaust the
-// stack of whoever walks the value.
-class ParseWatch {
+// Walks over a text ahead of its parse for what nlohmann lets pass: members that stand twice, and nesting
+// that would exhaust the stack of whoever walks the value. (Its callback for such checks costs the square of
+// the length of an array.)
+class ParseWatch final : public nlohmann::json_sax<json> {
  public:
-  bool operator()(int depth, json::parse_event_t event, json& parsed) {
-    if (depth > deepest) problem_ = "is nested deeper than " + std::to_string(deepest) + " levels";
-    switch (event) {
-      case json::parse_event_t::object_start:
-        members_.emplace_back();
-        break;
-      case json::parse_event_t::object_end:
-        members_.pop_back();
-        break;
-      case json::parse_event_t::key:
-        see(parsed.get<std::string>());
-        break;
-      default:
-        break;
-    }
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override {
+    members_.emplace_back();
+    return enter();
+  }
+  bool key(string_t& key) override {
+    if (!members_.back().insert(key).second)
+      problem_ = "holds the member \"" + key + "\" twice in one object";
     return problem_.empty();
   }
+  bool end_object() override {
+    members_.pop_back();
+    return leave();
+  }
+  bool start_array(std::size_t) override { return enter(); }
+  bool end_array() override { return leave(); }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+    return false;  // the parse itself says what
+  }
+
   const std::string& problem() const { return problem_; }
 
  private:
-  void see(const std::string& key) {
-    const bool is_new = members_.back().insert(key).second;
-    if (!is_new && problem_.empty()) problem_ = "holds the member \"" + key + "\" twice in one object";
+  bool enter() {
+    if (++depth_ > deepest) problem_ = "is nested deeper than " + std::to_string(deepest) + " levels";
+    return problem_.empty();
+  }
+  bool leave() {
+    --depth_;
+    return true;
   }
 
+  int depth_ = 0;
   std::vector<std::set<std::string>> members_;
   std::string problem_;
 };
@@ -104,15 +120,13 @@ void append(std::string& text, const ordered_json& value, std::size_t indent) {
 
 Result<json> parse_json(std::string_view text, const std::string& name) {
   ParseWatch watch;
-  const auto callback = [&watch](int depth, json::parse_event_t event, json& parsed) {
-    return watch(depth, event, parsed);
-  };
+  json::sax_parse(text, &watch);
+  if (!watch.problem().empty())
+    return Error{ErrorCode::unreadable, name + ": " + printable(watch.problem()) + "."};
   try {
-    json value = json::parse(text, callback);
-    if (!watch.problem().empty()) return Error{ErrorCode::unreadable, name + ": " + watch.problem() + "."};
-    return value;
+    return json::parse(text);
   } catch (const json::exception& exception) {
-    return Error{ErrorCode::unreadable, name + ": is not JSON: " + plain_message(exception) + "."};
+    return Error{ErrorCode::unreadable, name + ": is not JSON: " + printable(plain_message(exception)) + "."};
   }
 }
 

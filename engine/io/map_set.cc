@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/printable.h"
 #include "engine/io/json.h"
 #include "engine/io/patch_json.h"
 
@@ -68,8 +69,8 @@ Result<PatchMap> map_of(const PatchSet& set, const std::string& name) {
   for (const PatchRecord& record : set.patches) {
     if (map.patches.empty()) map.frame = record.frame_id;
     if (record.frame_id != map.frame) {
-      return Error{ErrorCode::usage, name + ": patches stand in frames \"" + map.frame + "\" and \"" +
-                                         record.frame_id +
+      return Error{ErrorCode::usage, name + ": patches stand in frames \"" + printable(map.frame) +
+                                         "\" and \"" + printable(record.frame_id) +
                                          "\"; a map has one frame, so bring them into one first."};
     }
     map.patches.push_back({record.id, record.patch, observations_of(record, name, error)});

@@ -1,4 +1,4 @@
-// Triangle meshes as files hold them: OBJ, OFF and STL, read by our own strict readers.
+// Triangle meshes as files hold them: OBJ, OFF, STL and PLY, read by our own strict readers.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,6 +28,10 @@ Result<MeshData> parse_obj(std::string_view bytes, const std::string& name, cons
 Result<MeshData> parse_off(std::string_view bytes, const std::string& name, const ReadOptions& options);
 // Equal corners of triangles become one vertex.
 Result<MeshData> parse_stl(std::string_view bytes, const std::string& name, const ReadOptions& options);
+Result<MeshData> parse_ply(std::string_view bytes, const std::string& name, const ReadOptions& options);
+
+// Whichever of them the bytes are. unreadable error also where they are no mesh, or one without a face.
+Result<MeshData> parse_mesh(std::string_view bytes, const std::string& name, const ReadOptions& options);
 
 // Adds a face of these vertices (indices counted from 0) as triangles, or counts it as bad.
 void add_face(MeshData& mesh, std::span<const std::int64_t> corners, std::size_t vertices);

@@ -1,4 +1,5 @@
 #include "engine/io/mesh_data.h"
+#include "engine/io/read_error.h"
 #include "engine/io/scan_from_columns.h"
 
 namespace patchlab {
@@ -28,8 +29,7 @@ Result<Scan> read_mesh_as(std::string_view bytes, const std::string& name, const
   scan.width = static_cast<std::uint32_t>(points);
   scan.notices = std::move(mesh->notices);
   if (mesh->faces > 0) scan.notices.push_back(faces_notice(*mesh));
-  scan.notices.emplace_back(
-      "A mesh states no viewpoint: the sensor is taken to be at the origin, looking along +z.");
+  scan.notices.push_back(std::string("A mesh states no viewpoint").append(at_the_origin));
   const bool is_float = mesh->format == "stl";
   std::vector<Column> columns;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -71,6 +71,7 @@ Result<void> add_line(std::string_view rest, std::size_t number, const std::stri
                       Faces& faces) {
   const std::string_view entry = next_word(rest);
   if (entry.empty() || entry.front() == '#') return {};
+  if (entry == "v" || entry == "f") rest = rest.substr(0, rest.find('#'));  // a comment may follow
   if (entry == "v") return add_vertex(rest, number, name, mesh);
   if (entry == "f") {
     add_face_line(rest, mesh.vertices.size(), faces);

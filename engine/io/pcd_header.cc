@@ -36,12 +36,6 @@ constexpr PcdType pcd_types[] = {
 
 constexpr std::string_view pcd_encodings[] = {"ascii", "binary", "binary_compressed"};
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return result;
-}
-
 class HeaderParser {
  public:
   HeaderParser(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -127,9 +121,9 @@ Result<void> HeaderParser::take_data(std::string_view line, const LineReader& li
   std::string_view word = next_word(line);
   header_.data_begin = bytes_.size() - lines.rest().size();
   header_.data_line = lines.number() + 1;
-  header_.encoding = lower(word);
+  header_.encoding = lower_case(word);
   if (std::ranges::count(pcd_encodings, header_.encoding) == 1 && line.empty()) return {};
-  if (!lower(word).starts_with("ascii")) {
+  if (!lower_case(word).starts_with("ascii")) {
     return unreadable_line(name_, lines.number(),
                            "DATA must be ascii, binary or binary_compressed, not " +
                                shown(trimmed(std::string(word) + std::string(line))) + ".");
@@ -232,7 +226,7 @@ Result<void> HeaderParser::parse_size() {
 
 // VIEWPOINT tx ty tz qw qx qy qz: the real part of the quaternion comes first.
 Result<void> HeaderParser::parse_viewpoint() {
-  const std::string assumed = ": the sensor is taken to be at the origin, looking along +z.";
+  const std::string assumed(at_the_origin);
   std::vector<double> numbers;
   for (const std::string_view word : viewpoint_.words) {
     const auto number = parse_number<double>(word);

@@ -16,8 +16,6 @@ constexpr std::array<std::string_view, 12> camera_names = {"view_px", "view_py",
                                                            "y_axisz", "z_axisx", "z_axisy", "z_axisz"};
 constexpr std::array<std::string_view, 2> viewport_names = {"viewportx", "viewporty"};
 
-const char* const at_the_origin = ": the sensor is taken to be at the origin, looking along +z.";
-
 const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
   const auto found = std::ranges::find(header.elements, name, &PlyElement::name);
   return found == header.elements.end() ? nullptr : &*found;
@@ -43,11 +41,11 @@ void set_viewpoint(const PlyElementData& camera, Scan& scan) {
   const bool rotation = (axes.transpose() * axes).isIdentity(axes_tolerance) && axes.determinant() > 0.0;
   if (!rotation || !position.allFinite()) {
     scan.notices.push_back(
-        std::string("The camera of the file has no position with three axes at right angles") +
-        at_the_origin);
+        std::string("The camera of the file has no position with three axes at right angles")
+            .append(at_the_origin));
   } else if (axes.isIdentity(0.0) && position.isZero(0.0)) {
-    scan.notices.push_back(std::string("The camera of the file is the identity, which says nothing") +
-                           at_the_origin);
+    scan.notices.push_back(
+        std::string("The camera of the file is the identity, which says nothing").append(at_the_origin));
   } else {
     const Eigen::Quaterniond q(axes);
     scan.viewpoint = {position, {q.x(), q.y(), q.z(), q.w()}, true};
@@ -116,7 +114,7 @@ Result<Scan> read_ply(std::string_view bytes, const std::string& name, const Rea
     }
   }
   if (camera == nullptr || camera->count != 1) {
-    scan.notices.push_back(std::string("The file states no single camera") + at_the_origin);
+    scan.notices.push_back(std::string("The file states no single camera").append(at_the_origin));
   }
   if (!cursor.is_text() || !trimmed(cursor.rest()).empty()) note_rest(cursor.rest(), scan.notices);
   const auto filled = fill_scan(scan, vertices.columns, vertex->count, OriginRule::where_large, options);

@@ -45,7 +45,8 @@ bool names_vertices(const PlyProperty& property) {
 }
 
 // Whether the list is a face: three entries or more, each the index of a vertex.
-Result<bool> walk_list(PlyCursor& cursor, const PlyProperty& property, std::uint64_t vertices) {
+Result<bool> walk_list(PlyCursor& cursor, const PlyProperty& property, std::uint64_t vertices,
+                       PlyFaces* faces) {
   std::array<char, largest_scalar> bytes;
   if (const Result<void> taken = cursor.take(property, *property.list_size, bytes.data()); !taken)
     return taken.error();
@@ -57,18 +58,22 @@ Result<bool> walk_list(PlyCursor& cursor, const PlyProperty& property, std::uint
     if (const Result<void> taken = cursor.take(property, property.type, bytes.data()); !taken)
       return taken.error();
     const double index = number(property.type, bytes.data());
-    face = face && index >= 0.0 && index < static_cast<double>(vertices);
+    const bool there = index >= 0.0 && index < static_cast<double>(vertices);
+    face = face && there;
+    if (faces != nullptr) faces->corners.push_back(there ? static_cast<std::int64_t>(index) : -1);
   }
+  if (faces != nullptr) faces->ends.push_back(faces->corners.size());
   return face;
 }
 
 // One record to the columns that lie at `to`.
 Result<void> walk_record(PlyCursor& cursor, const PlyElement& element, std::uint64_t vertices, char* to,
-                         PlyElementData& data) {
+                         PlyElementData& data, PlyFaces* faces) {
   if (const Result<void> begun = cursor.begin_record(); !begun) return begun;
   for (const PlyProperty& property : element.properties) {
     if (property.list_size) {
-      const Result<bool> face = walk_list(cursor, property, vertices);
+      const Result<bool> face =
+          walk_list(cursor, property, vertices, names_vertices(property) ? faces : nullptr);
       if (!face) return face.error();
       if (!*face && names_vertices(property)) ++data.bad_faces;
       continue;
@@ -81,16 +86,17 @@ Result<void> walk_record(PlyCursor& cursor, const PlyElement& element, std::uint
 }
 
 Result<PlyElementData> walk_records(PlyCursor& cursor, const PlyElement& element, std::uint64_t vertices,
-                                    const ReadOptions& options) {
+                                    const ReadOptions& options, PlyFaces* faces) {
   const std::vector<Column> layout = interleaved(element, cursor.is_text(), nullptr);
   const std::size_t step = layout.empty() ? 0 : layout[0].stride;
-  if (const auto fits = check_memory(cursor.name(), element.count, element.count * step, options); !fits) {
+  const std::uint64_t points = element.name == "vertex" ? element.count : 0;
+  if (const auto fits = check_memory(cursor.name(), points, element.count * step, options); !fits) {
     return fits.error();
   }
   PlyElementData data;
   data.memory.resize(element.count * step);
   for (std::uint64_t i = 0; i < element.count; ++i) {
-    const auto walked = walk_record(cursor, element, vertices, data.memory.data() + i * step, data);
+    const auto walked = walk_record(cursor, element, vertices, data.memory.data() + i * step, data, faces);
     if (!walked) return walked.error();
     if (i % records_between_progress != records_between_progress - 1) continue;
     if (!keep_going(options.progress, static_cast<double>(i) / static_cast<double>(element.count))) {
@@ -102,9 +108,7 @@ Result<PlyElementData> walk_records(PlyCursor& cursor, const PlyElement& element
 }
 
 // Binary records of one size stay where they are.
-Result<PlyElementData> columns_in_place(PlyCursor& cursor, const PlyElement& element,
-                                        const ReadOptions& options) {
-  if (const auto fits = check_memory(cursor.name(), element.count, 0, options); !fits) return fits.error();
+Result<PlyElementData> columns_in_place(PlyCursor& cursor, const PlyElement& element) {
   PlyElementData data;
   data.columns = interleaved(element, false, cursor.rest().data());
   for (Column& column : data.columns) column.swapped = cursor.swapped();
@@ -153,7 +157,7 @@ Error PlyCursor::cut_off() const {
 }
 
 Result<PlyElementData> read_ply_element(PlyCursor& cursor, const PlyElement& element, std::uint64_t vertices,
-                                        const ReadOptions& options) {
+                                        const ReadOptions& options, PlyFaces* faces) {
   if (element.count == 0) return PlyElementData{};
   const std::uint64_t text_bytes = element.properties.size() * 2;  // a digit and what separates it
   const std::uint64_t least = element.count * (cursor.is_text() ? text_bytes : element.smallest_bytes());
@@ -163,8 +167,8 @@ Result<PlyElementData> read_ply_element(PlyCursor& cursor, const PlyElement& ele
                                          std::to_string(cursor.rest().size()) +
                                          " follow; the file is cut off or its header is wrong.");
   }
-  if (!cursor.is_text() && !element.has_list()) return columns_in_place(cursor, element, options);
-  return walk_records(cursor, element, vertices, options);
+  if (!cursor.is_text() && !element.has_list()) return columns_in_place(cursor, element);
+  return walk_records(cursor, element, vertices, options, faces);
 }
 
 }  // namespace patchlab

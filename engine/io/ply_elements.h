@@ -53,9 +53,16 @@ struct PlyElementData {
   std::uint64_t bad_faces = 0;  // vertex_indices of fewer than three entries, or not all in [0, vertices)
 };
 
-// Moves the cursor behind the element. Every claim is held against the bytes that are left before anything is
-// allocated.
+// The lists that name vertices, as they stand: the corners of all faces, one after another, and where each
+// face ends.
+struct PlyFaces {
+  std::vector<std::int64_t> corners;
+  std::vector<std::size_t> ends;
+};
+
+// Moves the cursor behind the element; faces are kept where `faces` is not null. Every claim is held against
+// the bytes that are left before anything is allocated.
 Result<PlyElementData> read_ply_element(PlyCursor& cursor, const PlyElement& element, std::uint64_t vertices,
-                                        const ReadOptions& options);
+                                        const ReadOptions& options, PlyFaces* faces = nullptr);
 
 }  // namespace patchlab

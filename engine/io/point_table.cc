@@ -40,9 +40,7 @@ void split(std::string_view line, char separator, std::vector<std::string_view>&
 
 std::string column_name(std::string_view cell) {
   const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
-  std::string name(quoted ? cell.substr(1, cell.size() - 2) : cell);
-  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return name;
+  return lower_case(quoted ? cell.substr(1, cell.size() - 2) : cell);
 }
 
 using Names = std::vector<std::string>;
@@ -78,18 +76,26 @@ std::optional<std::string_view> comment(std::string_view line) {
   return std::nullopt;
 }
 
-// Where the rows begin: at a header row, which may stand in a comment, or at the first row itself.
+// Where the rows begin: at a header row, which may stand in a comment, or at the first row itself. PTS files
+// say how many rows follow in a line of its own.
 struct Start {
-  std::optional<std::string_view> header;
-  std::string_view row;  // the first row, where there is no header
+  std::optional<std::string_view> header = {};
+  std::string_view row = {};  // the first row, where there is no header
+  std::optional<std::uint64_t> promised = {};
 };
 
 std::optional<Start> find_start(LineReader& lines) {
+  Start start;
   while (const auto line = lines.next()) {
     const auto text = comment(*line);
-    if (is_header(text.value_or(*line))) return Start{text.value_or(*line), {}};
+    if (is_header(text.value_or(*line))) {
+      start.header = text.value_or(*line);
+      return start;
+    }
     if (text || trimmed(*line).empty()) continue;
-    return Start{std::nullopt, *line};
+    if (!start.promised && (start.promised = parse_number<std::uint64_t>(trimmed(*line)))) continue;
+    start.row = *line;
+    return start;
   }
   return std::nullopt;
 }
@@ -232,6 +238,10 @@ Result<Scan> read_point_table(std::string_view bytes, const std::string& name, c
     return unreadable(name, "holds " + std::string(what));
 
   const std::size_t points = table->values.size() / table->kept.size();
+  if (start->promised && *start->promised != points) {
+    return unreadable(name, "its first line promises " + std::to_string(*start->promised) + " points, but " +
+                                std::to_string(points) + " follow; the file is cut off or no point table.");
+  }
   const std::size_t step = table->kept.size() * sizeof(double);
   const char* first = reinterpret_cast<const char*>(table->values.data());
   std::vector<Column> columns;
@@ -240,8 +250,7 @@ Result<Scan> read_point_table(std::string_view bytes, const std::string& name, c
     first += sizeof(double);
   }
   scan.width = static_cast<std::uint32_t>(points);
-  scan.notices.emplace_back(
-      "A point table states no viewpoint: the sensor is taken to be at the origin, looking along +z.");
+  scan.notices.push_back(std::string("A point table states no viewpoint").append(at_the_origin));
   const auto filled = fill_scan(scan, columns, points, OriginRule::always, options);
   if (!filled) return filled.error();
   return scan;

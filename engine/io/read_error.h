@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/printable.h"
 #include "engine/base/result.h"
 
 namespace patchlab {
@@ -19,10 +20,12 @@ inline Error unreadable_line(const std::string& name, std::size_t line, const st
 // Text of a file within a message: in quotes, cut short, without control characters.
 inline std::string shown(std::string_view text) {
   constexpr std::size_t longest = 40;
-  std::string quoted = "'";
-  for (const char c : text.substr(0, longest)) quoted += (c >= ' ' && c != '\x7f') || c < '\0' ? c : '?';
-  return quoted + (text.size() > longest ? "...'" : "'");
+  return "'" + printable(std::string(text.substr(0, longest))) + (text.size() > longest ? "...'" : "'");
 }
+
+// How notices end that say why no viewpoint was found.
+inline constexpr std::string_view at_the_origin =
+    ": the sensor is taken to be at the origin, looking along +z.";
 
 // What of a file follows its last point; some writers fill it up with zeros.
 inline void note_rest(std::string_view rest, std::vector<std::string>& notices) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include "engine/base/progress_share.h"
 #include "engine/io/read_error.h"
 #include "engine/io/recognise.h"
 
@@ -32,9 +33,13 @@ Result<Scan> read_scan_bytes(std::string_view bytes, const std::string& name,
 Result<Scan> read_scan(const std::filesystem::path& file, const ReadOptions& options) {
   const std::string name = file == "-" ? "standard input" : file.string();
   try {
-    const Result<Bytes> bytes = read_file(file);
+    constexpr double share_of_file = 0.5;
+    const Result<Bytes> bytes =
+        read_file(file, default_file_limit, share_of(options.progress, 0.0, share_of_file));
     if (!bytes) return bytes.error();
-    Result<Scan> scan = read_scan_bytes(as_text(*bytes), name, options);
+    ReadOptions rest = options;
+    rest.progress = share_of(options.progress, share_of_file, 1.0);
+    Result<Scan> scan = read_scan_bytes(as_text(*bytes), name, rest);
     if (scan) scan->file = file.string();
     return scan;
   } catch (const std::bad_alloc&) {

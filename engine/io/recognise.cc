@@ -46,7 +46,7 @@ bool is_obj(std::string_view bytes) {
 }
 bool is_stl(std::string_view bytes) {
   constexpr std::size_t header = 80, triangle = 50;
-  return first_word(bytes) == "solid" ||
+  return lower_case(first_word(bytes)) == "solid" ||
          (bytes.size() > header + 4 && (bytes.size() - header - 4) % triangle == 0 &&
           bytes.substr(0, header).find('\n') == std::string_view::npos);
 }
@@ -74,7 +74,9 @@ struct EndingRow {
 };
 bool any(std::string_view) { return true; }
 constexpr EndingRow endings[] = {
-    {".bin", is_kitti, read_kitti}, {".stl", any, read_stl}, {".obj", any, read_obj}};
+    {".bin", is_kitti, read_kitti},  {".stl", any, read_stl},         {".obj", any, read_obj},
+    {".pcd", any, read_pcd},         {".csv", any, read_point_table}, {".xyz", any, read_point_table},
+    {".asc", any, read_point_table}, {".pts", any, read_point_table}, {".txt", any, read_point_table}};
 
 struct Magic {
   std::string_view bytes;
@@ -109,9 +111,7 @@ constexpr Magic magics[] = {
 };
 
 bool ends_with(std::string_view name, std::string_view ending) {
-  const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
-  return name.size() >= ending.size() &&
-         std::ranges::equal(name.substr(name.size() - ending.size()), ending, same);
+  return name.size() >= ending.size() && lower_case(name.substr(name.size() - ending.size())) == ending;
 }
 
 const Magic* magic_of(std::string_view bytes) {

@@ -15,7 +15,9 @@ namespace {
 using Names3 = std::array<std::string_view, 3>;
 using Columns = std::span<const Column>;
 
-constexpr std::uint64_t bytes_a_point = 128;  // of a Scan with everything, and of what it is made from
+// Of a point in memory: its position, then what of it is kept besides and while it is read.
+constexpr std::uint64_t position_bytes = 13, double_bytes = 24, colour_bytes = 27, label_bytes = 12,
+                        viewpoint_bytes = 36, covariance_bytes = 72;
 
 constexpr Names3 coordinate_names = {"x", "y", "z"};
 constexpr Names3 viewpoint_names = {"vp_x", "vp_y", "vp_z"};
@@ -63,17 +65,45 @@ Result<void> check_plausible(Scan& scan, const std::array<const Column*, 3>& xyz
 
 bool is_plain_float(const Column& column) { return column.type == Scalar::float32 && !column.swapped; }
 
-// Nothing of these files needs the coordinates as doubles: no other type or byte order, unit, frame,
-// covariance or position of a sensor.
-bool are_plain_floats(const Scan& scan, Columns columns, const std::array<const Column*, 3>& xyz,
-                      const ReadOptions& options) {
-  const bool as_they_stand =
-      options.unit == LengthUnit::m && !(options.points_in_sensor_frame && scan.viewpoint.stated);
-  return as_they_stand && std::ranges::all_of(xyz, [](const Column* c) { return is_plain_float(*c); }) &&
+// Nothing of these columns needs the coordinates as doubles: no other type or byte order, covariance or
+// position of a sensor.
+bool are_plain_floats(Columns columns) {
+  const auto xyz = find_columns(columns, coordinate_names);
+  return is_complete(xyz) && std::ranges::all_of(xyz, [](const Column* c) { return is_plain_float(*c); }) &&
          std::ranges::none_of(columns, [](const Column& column) {
            return is_covariance_column(column.name) ||
                   std::ranges::find(viewpoint_names, column.name) != viewpoint_names.end();
          });
+}
+
+// In their unit and frame.
+bool as_they_stand(const Scan& scan, const ReadOptions& options) {
+  return options.unit == LengthUnit::m && !(options.points_in_sensor_frame && scan.viewpoint.stated);
+}
+
+// Their positions are known, so nothing is assumed of where the sensor stood.
+void use_viewpoints(Scan& scan, const Points& viewpoints) {
+  if (viewpoints.empty()) return;
+  std::erase_if(scan.notices, [](const std::string& notice) { return notice.ends_with(at_the_origin); });
+  std::size_t unknown = 0;
+  for (const Eigen::Vector3d& viewpoint : viewpoints) {
+    scan.viewpoints.push_back((viewpoint - scan.origin).cast<float>());
+    unknown += scan.viewpoints.back().allFinite() ? 0 : 1;
+  }
+  scan.notices.emplace_back("Each point has the position of its sensor (vp_x vp_y vp_z).");
+  if (unknown > 0)
+    scan.notices.push_back(
+        "Points whose sensor position is not finite are taken as seen from the viewpoint of the scan: " +
+        std::to_string(unknown) + " of them.");
+}
+
+Result<Points> viewpoints_of(const Scan& scan, Columns columns, std::size_t points) {
+  const auto found = find_columns(columns, viewpoint_names);
+  if (is_complete(found)) return gather3(found, points);
+  if (std::ranges::count(found, nullptr) == 3) return Points{};
+  const auto missing = static_cast<std::size_t>(std::ranges::find(found, nullptr) - found.begin());
+  return unreadable(scan.file, "the position of a point's sensor takes three fields; '" +
+                                   std::string(viewpoint_names[missing]) + "' is missing.");
 }
 
 void fill_colours(Scan& scan, Columns columns, std::size_t points) {
@@ -117,6 +147,24 @@ void fill_labels(Scan& scan, Columns columns, std::size_t points) {
                          std::to_string(dropped) + " of them.");
 }
 
+bool has_any(Columns columns, std::span<const std::string_view> names) {
+  return std::ranges::any_of(names,
+                             [&](std::string_view name) { return find_column(columns, name) != nullptr; });
+}
+
+// At most.
+std::uint64_t bytes_a_point(Columns columns, bool plain_floats) {
+  std::uint64_t bytes = position_bytes + (plain_floats ? 0 : double_bytes);
+  const bool coloured = has_any(columns, packed_colour_names) || has_any(columns, colour_names[0]) ||
+                        has_any(columns, colour_names[1]);
+  if (coloured) bytes += colour_bytes;
+  if (has_any(columns, label_name)) bytes += label_bytes;
+  if (has_any(columns, viewpoint_names)) bytes += viewpoint_bytes;
+  if (std::ranges::any_of(columns, [](const Column& column) { return is_covariance_column(column.name); }))
+    bytes += covariance_bytes;
+  return bytes;
+}
+
 void use_intrinsics(Scan& scan, const ReadOptions& options) {
   if (options.intrinsics && scan.organized()) {
     const Intrinsics& camera = *options.intrinsics;
@@ -151,7 +199,15 @@ Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t 
     return unreadable(scan.file, "has no field '" + std::string(coordinate_names[missing]) +
                                      "' with one value a point; a scan needs x, y and z.");
   }
-  if (are_plain_floats(scan, columns, xyz, options) && place_floats(scan, xyz, points, rule)) {
+  if (options.points_in_sensor_frame && !scan.viewpoint.stated)
+    scan.notices.emplace_back(
+        "The file states no viewpoint that would move its points out of the frame of the sensor.");
+  const bool plain = are_plain_floats(columns) && as_they_stand(scan, options);
+  const std::uint64_t more = bytes_a_point(columns, plain) - position_bytes;
+  if (const auto fits = check_memory(scan.file, points, points * more, options); !fits) return fits;
+  const Error cancelled{ErrorCode::cancelled, scan.file + ": reading was cancelled."};
+  if (!keep_going(options.progress, 1.0)) return cancelled;
+  if (plain && place_floats(scan, xyz, points, rule)) {
     fill_colours(scan, columns, points);
     fill_labels(scan, columns, points);
     use_intrinsics(scan, options);
@@ -160,8 +216,9 @@ Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t 
   Points coordinates = gather3(xyz, points);
   if (const Result<void> plausible = check_plausible(scan, xyz, coordinates); !plausible) return plausible;
 
-  const auto viewpoint_columns = find_columns(columns, viewpoint_names);
-  Points viewpoints = is_complete(viewpoint_columns) ? gather3(viewpoint_columns, points) : Points{};
+  Result<Points> found_viewpoints = viewpoints_of(scan, columns, points);
+  if (!found_viewpoints) return found_viewpoints.error();
+  Points& viewpoints = *found_viewpoints;
   const double unit = metres(options.unit);
   for (Points* const lengths : {&coordinates, &viewpoints}) scale(*lengths, unit);
   scan.viewpoint.position *= unit;
@@ -174,9 +231,8 @@ Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t 
   place_points(scan, coordinates, rule);
   fill_colours(scan, columns, points);
   fill_labels(scan, columns, points);
-  for (const Eigen::Vector3d& viewpoint : viewpoints) {
-    scan.viewpoints.push_back((viewpoint - scan.origin).cast<float>());
-  }
+  use_viewpoints(scan, viewpoints);
+  if (!keep_going(options.progress, 1.0)) return cancelled;
 
   Points& rays = coordinates;
   for (std::size_t i = 0; i < points; ++i)
@@ -191,13 +247,18 @@ Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t 
   return {};
 }
 
+std::uint64_t memory_of_point(std::span<const Column> columns) {
+  return bytes_a_point(columns, are_plain_floats(columns));
+}
+
 Result<void> check_memory(const std::string& name, std::uint64_t points, std::uint64_t more,
                           const ReadOptions& options) {
-  const std::uint64_t needed = points * bytes_a_point + more;
+  const std::uint64_t needed = points * position_bytes + more;
   if (needed <= options.memory_limit) return {};
   return unreadable(name, "its " + std::to_string(points) + " points would take " +
                               std::to_string(needed >> 20) + " MB of memory, more than the limit of " +
-                              std::to_string(options.memory_limit >> 20) + " MB.");
+                              std::to_string(options.memory_limit >> 20) +
+                              " MB; thin it out, or cut it into parts.");
 }
 
 }  // namespace patchlab

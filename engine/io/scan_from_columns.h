@@ -27,9 +27,13 @@ bool is_point_table_column(std::string_view name);
 Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t points, OriginRule rule,
                        const ReadOptions& options);
 
-// Before anything is allocated: do `points` points, and `more` bytes beside them, stay within the memory
-// limit?
+// Before anything is allocated: do the positions of `points` points, and `more` bytes beside them, stay
+// within the memory limit? fill_scan asks again, for all that it keeps of a point.
 Result<void> check_memory(const std::string& name, std::uint64_t points, std::uint64_t more,
                           const ReadOptions& options);
+
+// Memory of one point of such columns, in bytes: what a Scan keeps of it, and what it is made from beside the
+// columns.
+std::uint64_t memory_of_point(std::span<const Column> columns);
 
 }  // namespace patchlab

@@ -1,10 +1,13 @@
 #include "engine/io/scene.h"
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <memory>
 #include <set>
 
 #include "engine/io/patch_json.h"
+#include "engine/io/scene_mesh.h"
+#include "engine/mesh/ray_mesh.h"
 
 namespace patchlab {
 namespace {
@@ -32,13 +35,19 @@ Camera camera_from_json(const JsonPlace& place) {
   return camera;
 }
 
-SceneObject object_from_json(const JsonPlace& unnamed) {
+SceneObject object_from_json(const JsonPlace& unnamed, const std::filesystem::path& folder) {
   SceneObject object;
   object.name = unnamed["name"].text();
   if (object.name.empty()) unnamed["name"].fail("is empty");
   const JsonPlace place = unnamed.called("object \"" + object.name + "\"");
-  if (place.find("mesh")) place.fail("is a mesh, which cannot be simulated yet; describe it by patches");
-  object.patch = patch_from_json(place["patch"]);
+  const bool is_mesh = place.find("mesh").has_value();
+  if (is_mesh == place.find("patch").has_value() && place.ok())
+    place.fail("lacks the member \"patch\" or \"mesh\", or has both");
+  if (is_mesh) {
+    object.mesh = mesh_from_json(place, folder);
+  } else {
+    object.patch = patch_from_json(place["patch"]);
+  }
   return object;
 }
 
@@ -56,14 +65,17 @@ struct Target {
   Patch patch;
   Vector3d centre;
   double squared_radius;
+  std::shared_ptr<const RayMesh> mesh;  // in place of the patch; it knows its own boxes
 };
 
-Target target(const Patch& patch) {
+Target target(const SceneObject& object) {
+  if (object.mesh) return {{}, {}, std::numeric_limits<double>::infinity(), object.mesh};
+  const Patch& patch = object.patch;
   const Vector2d half = extent(boundary(patch));
   const Vector3d k = k3(patch).cwiseAbs();
   const double highest =
       k.x() * half.x() * half.x() + k.y() * half.y() * half.y();  // at least |z|: k rho^2/(1 + w), w >= 0
-  return {patch, centre(patch), half.squaredNorm() + highest * highest};
+  return {patch, centre(patch), half.squaredNorm() + highest * highest, nullptr};
 }
 
 bool passes(const Target& target, const Vector3d& origin, const Vector3d& direction) {
@@ -72,9 +84,15 @@ bool passes(const Target& target, const Vector3d& origin, const Vector3d& direct
   return to_centre.cross(direction).squaredNorm() <= target.squared_radius * length2;
 }
 
+std::optional<double> hit(const Target& target, const Vector3d& origin, const Vector3d& direction) {
+  if (target.mesh) return target.mesh->hit(origin, direction);
+  return passes(target, origin, direction) ? ray_hit(target.patch, origin, direction) : std::nullopt;
+}
+
 }  // namespace
 
-Result<SceneDescription> read_scene(std::string_view text, const std::string& name) {
+Result<SceneDescription> read_scene(std::string_view text, const std::string& name,
+                                    const std::filesystem::path& folder) {
   const Result<json> parsed = parse_json(text, name);
   if (!parsed) return parsed.error();
   std::optional<Error> error;
@@ -85,7 +103,7 @@ Result<SceneDescription> read_scene(std::string_view text, const std::string& na
   if (const auto noise = root.find("noise")) scene.noise = noise->text();
   std::set<std::string> names;
   for (const JsonPlace& place : root["objects"].items()) {
-    scene.objects.push_back(object_from_json(place));
+    scene.objects.push_back(object_from_json(place, folder));
     if (!names.insert(scene.objects.back().name).second) place["name"].fail("is taken by an earlier object");
   }
   if (error) return *error;
@@ -94,13 +112,11 @@ Result<SceneDescription> read_scene(std::string_view text, const std::string& na
 
 CastRay cast_ray(const SceneDescription& scene) {
   auto targets = std::make_shared<std::vector<Target>>();
-  for (const SceneObject& object : scene.objects) targets->push_back(target(object.patch));
+  for (const SceneObject& object : scene.objects) targets->push_back(target(object));
   return [targets](const Vector3d& origin, const Vector3d& direction) -> std::optional<Hit> {
     std::optional<Hit> nearest;
     for (std::uint32_t i = 0; i < targets->size(); ++i) {
-      const Target& candidate = (*targets)[i];
-      if (!passes(candidate, origin, direction)) continue;
-      const std::optional<double> s = ray_hit(candidate.patch, origin, direction);
+      const std::optional<double> s = hit((*targets)[i], origin, direction);
       if (s && (!nearest || *s < nearest->s)) nearest = Hit{*s, i};
     }
     return nearest;
@@ -110,6 +126,7 @@ CastRay cast_ray(const SceneDescription& scene) {
 PatchSet truth(const SceneDescription& scene) {
   PatchSet set;
   for (const SceneObject& object : scene.objects) {
+    if (object.mesh) continue;
     PatchRecord record;
     record.id = record.name = object.name;
     record.frame_id = "world";

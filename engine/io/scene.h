@@ -1,8 +1,11 @@
 // Scenes for the simulated range camera (JSON; schema: assets/schema/scene.schema.json): a camera, a noise
-// model and bounded patches in a world frame. Synthetic truth for tests, samples and `patchlab simulate`.
+// model, and bounded patches and meshes in a world frame. Synthetic truth for tests, samples and `patchlab
+// simulate`.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,9 +17,13 @@
 
 namespace patchlab {
 
+class RayMesh;
+
+// A patch or a mesh, opaque from both sides.
 struct SceneObject {
-  std::string name;  // unique in its scene
-  Patch patch;       // in the world frame; opaque from both sides
+  std::string name;                          // unique in its scene
+  Patch patch = {};                          // in the world frame; not used where there is a mesh
+  std::shared_ptr<const RayMesh> mesh = {};  // in the world frame
 };
 
 struct SceneDescription {
@@ -25,13 +32,16 @@ struct SceneDescription {
   std::vector<SceneObject> objects;
 };
 
-// unreadable error: names the file, the object and the member that is wrong.
-Result<SceneDescription> read_scene(std::string_view text, const std::string& name);
+// unreadable error: names the file, the object and the member that is wrong. Mesh files are looked for from
+// `folder`.
+Result<SceneDescription> read_scene(std::string_view text, const std::string& name,
+                                    const std::filesystem::path& folder = {});
 
-// The nearest object along a ray; it keeps its own copy of the patches.
+// The nearest object along a ray; it keeps its own copy of the patches and shares the meshes.
 CastRay cast_ray(const SceneDescription& scene);
 
-// The objects as designed patches without covariance: `frame_id` world, id and name those of the object.
+// The patches among the objects as designed ones without covariance: `frame_id` world, id and name those of
+// the object.
 PatchSet truth(const SceneDescription& scene);
 
 struct SimulatedScene {

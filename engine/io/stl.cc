@@ -69,7 +69,7 @@ Result<Corners> text_corners(std::string_view bytes, const std::string& name, co
   std::size_t begin = 0;
   while (const auto line = lines.next()) {
     std::string_view rest = trimmed(*line);
-    const std::string_view entry = next_word(rest);
+    const std::string entry = lower_case(next_word(rest));
     if (entry == "vertex" && open) {
       const Result<Corner> corner = corner_of(rest, lines.number(), name);
       if (!corner) return corner.error();
@@ -125,7 +125,7 @@ Result<MeshData> parse_stl(std::string_view bytes, const std::string& name, cons
   MeshData mesh;
   mesh.format = "stl";
   mesh.encoding = is_binary(bytes) ? "binary" : "ascii";
-  if (mesh.encoding == "ascii" && !trimmed(bytes.substr(0, header_bytes)).starts_with("solid")) {
+  if (mesh.encoding == "ascii" && !lower_case(trimmed(bytes.substr(0, header_bytes))).starts_with("solid")) {
     if (bytes.size() < header_bytes) return unreadable(name, "is too short for an STL file.");
     return unreadable(name, "its header promises " + std::to_string(promised_triangles(bytes)) +
                                 " triangles of 50 bytes, but " + std::to_string(bytes.size() - header_bytes) +

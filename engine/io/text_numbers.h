@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -29,6 +30,8 @@ class LineReader {
 std::string_view next_word(std::string_view& rest);
 // The text without spaces, tabs and line ends around it.
 std::string_view trimmed(std::string_view text);
+// A to Z as a to z, all else as it is.
+std::string lower_case(std::string_view text);
 
 // The whole text as a number: decimal or scientific, an optional sign, `nan` and `inf` for floating point.
 // Nothing where any character is left over or the number does not fit the type.

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <set>
 
+#include "engine/base/printable.h"
 #include "engine/map/robot.h"
 
 namespace patchlab {
@@ -16,12 +17,21 @@ namespace {
 
 constexpr int deepest = 100;  // elements within elements
 constexpr std::size_t most_links = 10000;
+constexpr std::size_t most_attributes = 1000;  // of one element
 
-// urdfdom says what is wrong to a log; the first sentence of it goes into ours, and nothing is printed.
+// urdfdom says what is wrong to a log; the first sentence of it goes into ours, and nothing is printed. It
+// formats with text of the file as the format, so that where a file holds % it must not speak.
 class Listener : public console_bridge::OutputHandler {
  public:
-  Listener() : lock_(turn()) { console_bridge::useOutputHandler(this); }
-  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+  explicit Listener(bool may_speak) : lock_(turn()), level_(console_bridge::getLogLevel()) {
+    console_bridge::useOutputHandler(this);
+    console_bridge::setLogLevel(may_speak ? console_bridge::CONSOLE_BRIDGE_LOG_ERROR
+                                          : console_bridge::CONSOLE_BRIDGE_LOG_NONE);
+  }
+  ~Listener() override {
+    console_bridge::setLogLevel(level_);
+    console_bridge::restorePreviousOutputHandler();
+  }
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
     if (first_.empty() && level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) first_ = text;
   }
@@ -33,6 +43,7 @@ class Listener : public console_bridge::OutputHandler {
     return mutex;
   }
   std::lock_guard<std::mutex> lock_;
+  console_bridge::LogLevel level_;
   std::string first_;
 };
 
@@ -44,6 +55,24 @@ bool too_deep(std::string_view text) {
       ++depth;
     if ((text[i] == '<' && text[i + 1] == '/') || (text[i] == '/' && text[i + 1] == '>')) --depth;
     if (depth > deepest) return true;
+  }
+  return false;
+}
+
+// The parser looks for each attribute among all before it in the element.
+bool has_crowd_of_attributes(std::string_view text) {
+  std::size_t attributes = 0;
+  char quote = '\0';
+  for (const char c : text) {
+    if (quote != '\0') {
+      quote = c == quote ? '\0' : quote;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '<' || c == '>') {
+      attributes = 0;
+    } else if (c == '=' && ++attributes > most_attributes) {
+      return true;
+    }
   }
   return false;
 }
@@ -80,14 +109,17 @@ std::string no_tree(const std::string& text) {
 }
 
 urdf::ModelInterfaceSharedPtr parsed(const std::string& text, std::string& problem) {
-  Listener listener;
+  const bool has_percent = text.find('%') != std::string::npos;
+  Listener listener(!has_percent);
   urdf::ModelInterfaceSharedPtr model;
   try {
     model = urdf::parseURDF(text);
   } catch (const std::exception& error) {
     problem = error.what();
   }
-  if (!model && problem.empty()) problem = listener.first();
+  if (!model && problem.empty())
+    problem = has_percent ? "an element is malformed; without % signs in the file it can be told which"
+                          : listener.first();
   return model;
 }
 
@@ -180,9 +212,11 @@ void add_children(Robot& robot, const urdf::Link& link, std::string& problem) {
 
 Result<Robot> read_urdf(std::string_view text, const std::string& name) {
   const auto wrong = [&](const std::string& what) {
-    return Error{ErrorCode::unreadable, name + ": " + what + "; correct the URDF."};
+    return Error{ErrorCode::unreadable, name + ": " + printable(what) + "; correct the URDF."};
   };
   if (too_deep(text)) return wrong("elements are nested more than " + std::to_string(deepest) + " deep");
+  if (has_crowd_of_attributes(text))
+    return wrong("an element has more than " + std::to_string(most_attributes) + " attributes");
   std::string problem = no_tree(std::string(text));
   if (!problem.empty()) return wrong(problem);
   const urdf::ModelInterfaceSharedPtr model = parsed(std::string(text), problem);

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "engine/base/file.h"
+#include "engine/base/progress_share.h"
 #include "engine/fit/fit_patch.h"
 #include "engine/io/read_scan.h"
 #include "engine/project/command.h"
@@ -41,7 +42,9 @@ Result<Scan> read(OpenScan& open, const ApplyOptions& options) {
   const fs::path file = options.on         ? *options.on
                         : open.file == "-" ? fs::path("-")
                                            : options.folder / open.file;
-  const Result<Bytes> bytes = read_file(file);
+  constexpr double share_of_file = 0.5;
+  const Result<Bytes> bytes =
+      read_file(file, default_file_limit, share_of(options.progress, 0.0, share_of_file));
   if (!bytes) return bytes.error();
   const std::string hash = sha256(as_text(*bytes));
   if (!options.on && !open.sha256.empty() && open.sha256 != hash) {
@@ -53,7 +56,7 @@ Result<Scan> read(OpenScan& open, const ApplyOptions& options) {
                         .unit = open.unit,
                         .intrinsics = open.intrinsics,
                         .depth_scale = open.depth_scale,
-                        .progress = options.progress};
+                        .progress = share_of(options.progress, share_of_file, 1.0)};
   Result<Scan> scan = read_scan_bytes(as_text(*bytes), file == "-" ? "standard input" : file.string(), how);
   if (!scan) return scan;
   open.sha256 = hash;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/random.h"
 #include "engine/scan/neighbours.h"
 
 namespace patchlab {
@@ -14,6 +15,22 @@ constexpr std::size_t smallest_neighbourhood = 16;
 constexpr std::size_t largest_neighbourhood = 256;
 constexpr double flat =
     0.2;  // a neighbourhood thinner than this times its width is a plane, a narrower one a line
+
+constexpr std::size_t points_enough = std::size_t{1} << 19;
+
+// Of a large scan as many points as a neighbourhood needs to be small, drawn evenly: a tree of all of them
+// would take more memory than the scan itself.
+Scan thinned(const Scan& scan) {
+  Scan drawn;
+  Random random(1);
+  const double share = static_cast<double>(points_enough) / static_cast<double>(scan.finite_count);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (scan.finite[i] && random.uniform() < share) drawn.positions.push_back(scan.positions[i]);
+  }
+  drawn.finite.assign(drawn.positions.size(), 1);
+  drawn.finite_count = drawn.positions.size();
+  return drawn;
+}
 
 // Scans put together from several often hold a point many times; it counts once. Equal points are equally far
 // away.
@@ -62,6 +79,7 @@ std::optional<double> variance_around(const Scan& scan, const NeighbourIndex& in
 
 std::optional<double> local_roughness(const Scan& scan, std::size_t samples) {
   if (scan.finite_count < smallest_neighbourhood) return std::nullopt;
+  if (scan.finite_count > 2 * points_enough) return local_roughness(thinned(scan), samples);
   const NeighbourIndex index(scan);
   const std::size_t stride = std::max<std::size_t>(scan.size() / samples, 1);
   std::vector<Neighbour> neighbours;

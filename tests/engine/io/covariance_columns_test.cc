@@ -43,6 +43,15 @@ TEST(CovarianceColumns, BadOnesAreNoted) {
   EXPECT_THAT(scan->notices, Contains(HasSubstr("not finite: 1; a fit that uses one of them is refused")));
 }
 
+TEST(CovarianceColumns, DeviationsBelowZeroAreBad) {
+  for (const char* text : {"x,y,z,sigma\n1,2,3,0.1\n4,5,6,-0.1\n",
+                           "x,y,z,sigma_range,sigma_lateral\n1,2,3,0.1,0.1\n4,5,6,0.1,-0.1\n"}) {
+    const Result<Scan> scan = read_scan_bytes(text, "a");
+    ASSERT_TRUE(scan) << scan.error().message;
+    EXPECT_THAT(scan->notices, Contains(HasSubstr("not finite: 1; a fit that uses one of them is refused")));
+  }
+}
+
 TEST(CovarianceColumns, DeviationsInMillimetresBecomeMetres) {
   ReadOptions options;
   options.unit = LengthUnit::mm;

@@ -67,6 +67,29 @@ TEST(MeshFiles, FacesOfAnObjCountFromOneOrFromTheEnd) {
   EXPECT_EQ(mesh->bad_faces, 5u);
 }
 
+TEST(MeshFiles, ACommentMayFollowAVertexOrAFace) {
+  const Scan scan = read("v 0 0 1 # first\nv 1 0 1# second\nv 1 1 1\nf 1 2 3 # all\nusemtl a#b\n");
+  EXPECT_EQ(scan.size(), 3u);
+  EXPECT_THAT(scan.notices, Contains(HasSubstr("its 1 faces were left out")));
+}
+
+TEST(MeshFiles, FacesOfAPlyStandBeforeOrAfterTheirVertices) {
+  const std::string vertices = "element vertex 4\nproperty float x\nproperty double y\nproperty float z\n",
+                    faces = "element face 3\nproperty uchar red\nproperty list uchar int vertex_indices\n",
+                    xyz = "0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n", quad = "9 4 0 1 2 3\n9 3 0 1 4\n9 3 2 1 0\n";
+  using Triangle = std::array<std::uint32_t, 3>;
+  for (const std::string& text :
+       {"ply\nformat ascii 1.0\n" + vertices + faces + "end_header\n" + xyz + quad,
+        "ply\nformat ascii 1.0\n" + faces + vertices + "end_header\n" + quad + xyz}) {
+    const Result<MeshData> mesh = parse_mesh(text, "mesh", {});
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(mesh->vertices[3], Eigen::Vector3d(0, 1, 0.5));
+    EXPECT_THAT(mesh->triangles,
+                testing::ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{2, 1, 0}));
+    EXPECT_EQ(mesh->bad_faces, 1u);
+  }
+}
+
 TEST(MeshFiles, AnObjThatIsWrongIsRefusedByLine) {
   EXPECT_THAT(mesh_refusal("v 0 0\n"), HasSubstr("line 1: a vertex has 2 values"));
   EXPECT_THAT(mesh_refusal("v 0 0 0\nv 1 a 0\n"), HasSubstr("line 2: 'a' in a vertex is not a number"));
@@ -100,6 +123,11 @@ TEST(MeshFiles, StlCornersAreMergedInBothEncodings) {
       " endloop\nendfacet\nendsolid a\n");
   EXPECT_EQ(ascii.encoding, "ascii");
   EXPECT_EQ(ascii.size(), 3u);
+  EXPECT_EQ(
+      read("SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 1 1 0\nENDLOOP\n"
+           "ENDFACET\nENDSOLID\n")
+          .size(),
+      3u);
 }
 
 TEST(MeshFiles, AnStlThatIsWrongIsRefused) {

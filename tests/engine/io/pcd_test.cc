@@ -280,7 +280,7 @@ TEST(Pcd, ClaimsAreHeldAgainstTheBytesThatFollow) {
 }
 
 TEST(Pcd, MoreMemoryThanTheLimitIsRefused) {
-  EXPECT_THAT(refusal(Header().with(two_points), {.memory_limit = 100}), HasSubstr("more than the limit"));
+  EXPECT_THAT(refusal(Header().with(two_points), {.memory_limit = 25}), HasSubstr("more than the limit"));
 }
 
 TEST(Pcd, LinesAtFaultAreNamed) {

@@ -46,6 +46,18 @@ TEST(PointTable, SensorIsAtTheOriginLookingForwardAndNobodySaidSo) {
   EXPECT_EQ(scan.width, 1U);
 }
 
+TEST(PointTable, SensorsOfPointsAreKeptAndNothingIsAssumedBeside) {
+  const Scan scan = read("x,y,z,vp_x,vp_y,vp_z\n1,2,3,0,0,1\n4,5,6,1,0,1\n");
+  ASSERT_EQ(scan.viewpoints.size(), 2U);
+  EXPECT_EQ(scan.origin + scan.viewpoints[1].cast<double>(), Eigen::Vector3d(1, 0, 1));
+  EXPECT_THAT(scan.notices, Contains(HasSubstr("Each point has the position of its sensor")));
+  EXPECT_THAT(scan.notices, Not(Contains(HasSubstr("at the origin"))));
+  EXPECT_THAT(read("x,y,z,vp_x,vp_y,vp_z\n1,2,3,0,nan,1\n4,5,6,1,0,1\n").notices,
+              Contains(HasSubstr(
+                  "sensor position is not finite are taken as seen from the viewpoint of the scan: 1")));
+  EXPECT_THAT(refusal("x,y,z,vp_x,vp_z\n1,2,3,0,0\n"), HasSubstr("'vp_y' is missing"));
+}
+
 TEST(PointTable, CovariancesKeepAllTheirDigits) {
   const Scan scan = read(
       "x,y,z,cxx,cxy,cxz,cyy,cyz,czz\n0,0,1,5.665926905e-07,1.266109643e-07,-1.460895742e-06,6.09e-07,-1.7e-06,1.99e-05\n");
@@ -96,6 +108,13 @@ TEST(PointTable, RowsWithoutAHeaderBeginWithXYZ) {
     EXPECT_THAT(scan.notices, Contains(HasSubstr("the columns after them were left out")));
   }
   EXPECT_THAT(refusal("1 2 3\n4 5 6 7\n"), HasSubstr("line 2: has 4 columns where the first row has 3"));
+}
+
+TEST(PointTable, ALineMaySayHowManyRowsFollow) {
+  EXPECT_EQ(read("2\n1 2 3 -100 255 0 0\n4 5 6 -100 255 0 0\n").size(), 2U);
+  EXPECT_THAT(refusal("3\n1 2 3 -100 255 0 0\n4 5 6 -100 255 0 0\n"),
+              HasSubstr("promises 3 points, but 2 follow"));
+  EXPECT_THAT(refusal("2\n1\n0 0 0\n1 0 0\n"), HasSubstr("line 2: is neither a header row"));
 }
 
 TEST(PointTable, HeaderRowsMayStandInACommentAndInCapitals) {

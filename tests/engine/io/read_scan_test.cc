@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -56,6 +57,17 @@ TEST(ReadScan, NamesWhatItDoesNotRead) {
   EXPECT_THAT(refusal(""), HasSubstr("is empty"));
 }
 
+TEST(ReadScan, NamesWhatIsWrongWithATextThatIsCalledATable) {
+  for (const auto& [text, name] : {std::pair{"x [m],y [m],z [m]\n1,2,3\n", "units.csv"},
+                                   {"ncols 2\nnrows 1\n1 2\n", "grid.asc"},
+                                   {"1.0D+00 2.0D+00 3.0D+00\n", "fortran.XYZ"}}) {
+    const Result<Scan> scan = read_scan_bytes(text, name);
+    ASSERT_FALSE(scan) << name;
+    EXPECT_THAT(scan.error().message,
+                HasSubstr("line 1: is neither a header row that names the columns x, y and z"));
+  }
+}
+
 class ReadScanFile : public testing::Test {
  protected:
   void SetUp() override {
@@ -79,6 +91,36 @@ TEST_F(ReadScanFile, OnlyRegularFilesAreOpened) {
   EXPECT_THAT(refusal_of("/dev/zero"), HasSubstr("not a regular file"));
   std::filesystem::create_symlink("loop.pcd", folder_ / "loop.pcd");
   EXPECT_THAT(refusal_of(folder_ / "loop.pcd"), HasSubstr("cannot be opened"));
+}
+
+TEST_F(ReadScanFile, ReportsItsProgressAndStopsWhereverItIsTold) {
+  const std::filesystem::path file = folder_ / "a.ply";
+  std::ofstream(file, std::ios::binary)
+      << "ply\nformat binary_little_endian 1.0\nelement vertex 2000000\nproperty float x\nproperty float y\n"
+         "property float z\nend_header\n"
+      << std::string(24'000'000, '\1');
+  std::vector<double> reported;
+  const auto read_until = [&](std::size_t last_call) {
+    reported.clear();
+    ReadOptions options;
+    options.progress = [&](double fraction) {
+      reported.push_back(fraction);
+      return reported.size() < last_call;
+    };
+    return read_scan(file, options);
+  };
+  ASSERT_TRUE(read_until(1000));
+  const std::size_t calls = reported.size();
+  EXPECT_GE(calls, 4U) << "three pieces of the file, and the points";
+  EXPECT_TRUE(std::ranges::is_sorted(reported));
+  EXPECT_GE(reported.front(), 0.0);
+  EXPECT_LE(reported.back(), 1.0);
+  for (std::size_t call = 1; call <= calls; ++call) {
+    const Result<Scan> scan = read_until(call);
+    ASSERT_FALSE(scan);
+    EXPECT_EQ(scan.error().code, ErrorCode::cancelled);
+    EXPECT_EQ(reported.size(), call);
+  }
 }
 
 TEST_F(ReadScanFile, ScanIsNamedAsTheUserNamedIt) {

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 
 #include "engine/base/file.h"
 #include "tests/support/sample_patches.h"
@@ -81,16 +84,10 @@ TEST(Scene, IsRefusedByNameOfFileObjectAndMember) {
               HasSubstr("objects[1].name is taken"));
   EXPECT_THAT(refusal([](json& s) { s["objects"][1]["name"] = ""; }), HasSubstr("objects[1].name is empty"));
   EXPECT_THAT(refusal([](json& s) { s["objects"][0].erase("patch"); }),
-              HasSubstr("object \"ball\" lacks the member \"patch\""));
+              HasSubstr("object \"ball\" lacks the member \"patch\" or \"mesh\", or has both"));
+  EXPECT_THAT(refusal([](json& s) { s["objects"][0]["mesh"] = "ball.ply"; }), HasSubstr("or has both"));
   EXPECT_THAT(refusal([](json& s) { s["objects"][0]["patch"]["parameters"]["values"][0] = 0.09; }),
               HasSubstr("object \"ball\": patch cannot be: "));
-}
-
-TEST(Scene, SaysThatMeshesAreNotSimulatedYet) {
-  EXPECT_THAT(refusal([](json& s) {
-                s["objects"][1] = {{"name", "rock"}, {"mesh", "rock.ply"}};
-              }),
-              HasSubstr("object \"rock\" is a mesh, which cannot be simulated yet"));
 }
 
 TEST(Scene, HasItsObjectsAsDesignedTruth) {
@@ -168,16 +165,110 @@ TEST(Simulate, RefusesANoiseModelItCannotUse) {
   }
 }
 
-TEST(Scene, ReadsTheContractButForItsMesh) {
+TEST(Scene, ReadsTheContractButForTheFileOfItsMesh) {
   const std::filesystem::path contract =
       std::filesystem::path(PATCHLAB_SOURCE_DIR) / "../shared/contracts/scene.json";
   if (!std::filesystem::exists(contract)) GTEST_SKIP() << "the contracts are not beside this checkout";
   json object = json::parse(as_text(*read_file(contract)));
-  EXPECT_FALSE(read_scene(object.dump(), "scene.json"));
+  const Result<SceneDescription> without_mesh = read_scene(object.dump(), "scene.json");
+  ASSERT_FALSE(without_mesh);
+  EXPECT_THAT(without_mesh.error().message,
+              HasSubstr("object \"rock\": mesh cannot be used: rock.ply: cannot be opened"));
   object["objects"].erase(1);
   const Result<SceneDescription> read = read_scene(object.dump(), "scene.json");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_GT(simulate(*read, "", 1)->scan.finite_count, 500u);
+}
+
+class SceneFolder : public testing::Test {
+ protected:
+  SceneFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "patchlab_scene_XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~SceneFolder() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+};
+
+// Meshes as files: a square of side 0.2 at z = 0 about the origin, in every format and in two units.
+class SceneMeshTest : public SceneFolder,
+                      public testing::WithParamInterface<std::pair<const char*, std::string>> {};
+
+json mesh_object(const std::string& file) {
+  return {{"name", "square"},
+          {"mesh", file},
+          {"pose", {{"position", {0.05, 0, 0.5}}, {"quaternion_xyzw", {0, 0, 0, 1}}}}};
+}
+
+TEST_P(SceneMeshTest, IsSeenWhereItsPosePutsIt) {
+  const auto& [file, text] = GetParam();
+  ASSERT_TRUE(write_file(folder_ / file, text));
+  json object = scene_json();
+  object["objects"].push_back(mesh_object(file));
+  object["objects"][2]["unit"] = std::string(file).starts_with("mm") ? "mm" : "m";
+  const Result<SceneDescription> read = read_scene(object.dump(), "a.json", folder_);
+  ASSERT_TRUE(read) << read.error().message;
+  const Result<SimulatedScene> simulated = simulate(*read, "", 1);
+  EXPECT_EQ(simulated->truth.patches.size(), 2u) << "a mesh has no patch";
+  const Scan& scan = simulated->scan;
+  Eigen::AlignedBox3d seen;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (scan.labels[i] == 3) seen.extend(scan.point(i));
+  }
+  const double pixel = 0.5 / 52.5;
+  EXPECT_NEAR(seen.min().x(), -0.05, pixel);
+  EXPECT_NEAR(seen.max().x(), 0.15, pixel);
+  EXPECT_NEAR(seen.max().y(), 0.1, pixel);
+  EXPECT_NEAR(seen.min().z(), 0.5, 1e-6);
+  EXPECT_NEAR(seen.max().z(), 0.5, 1e-6);
+  const Hit hit = cast_ray(*read)(Vector3d::Zero(), Vector3d(0.05, 0.0, 1.0)).value_or(Hit{});
+  EXPECT_EQ(hit.object, 2u) << "it hides the ball behind it";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Formats, SceneMeshTest,
+    testing::Values(
+        std::pair("square.obj", "v -.1 -.1 0\nv .1 -.1 0\nv .1 .1 0\nv -.1 .1 0\nf 1 2 3 4\n"),
+        std::pair("mm.obj", "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\nf 1 2 3\nf 1 3 4\n"),
+        std::pair("square.off", "OFF\n4 1 0\n-.1 -.1 0\n.1 -.1 0\n.1 .1 0\n-.1 .1 0\n4 0 1 2 3\n"),
+        std::pair(
+            "square.stl",
+            "solid a\nfacet normal 0 0 1\nouter loop\nvertex -.1 -.1 0\nvertex .1 -.1 0\nvertex .1 .1 0\n"
+            "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex -.1 -.1 0\nvertex .1 .1 0\n"
+            "vertex -.1 .1 0\nendloop\nendfacet\nendsolid\n"),
+        std::pair(
+            "square.ply",
+            "ply\nformat ascii 1.0\nelement face 2\nproperty list uchar int vertex_indices\nelement vertex 4\n"
+            "property float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n3 0 2 3\n"
+            "-.1 -.1 0\n.1 -.1 0\n.1 .1 0\n-.1 .1 0\n")),
+    [](const auto& file) {
+      std::string name = file.param.first;
+      std::ranges::replace(name, '.', '_');
+      return name;
+    });
+
+TEST_F(SceneFolder, WithAMeshFileThatHoldsNoneIsRefused) {
+  ASSERT_TRUE(write_file(folder_ / "points.ply",
+                         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                         "property float z\nend_header\n1 2 3\n"));
+  ASSERT_TRUE(write_file(folder_ / "table.csv", "x,y,z\n1,2,3\n"));
+  for (const auto& [file, what] : {std::pair{"points.ply", "holds no face"},
+                                   {"table.csv", "is no mesh"},
+                                   {"", "is empty"},
+                                   {"nothing.stl", "cannot be opened"}}) {
+    json object = scene_json();
+    object["objects"].push_back(mesh_object(file));
+    const Result<SceneDescription> read = read_scene(object.dump(), "a.json", folder_);
+    ASSERT_FALSE(read) << file;
+    EXPECT_THAT(read.error().message, HasSubstr("a.json: object \"square\": mesh "));
+    EXPECT_THAT(read.error().message, HasSubstr(what));
+  }
+  EXPECT_THAT(refusal([](json& s) {
+                s["objects"].push_back(mesh_object("a.obj"));
+                s["objects"][2]["unit"] = "yard";
+              }),
+              HasSubstr("unit is none of"));
 }
 
 }  // namespace

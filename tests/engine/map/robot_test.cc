@@ -189,6 +189,8 @@ TEST(Robot, AsksForWhatIsMissing) {
 
 TEST(Urdf, ThatIsNoRobotIsRefusedInOneSentence) {
   const std::string ab = link_xml("a") + link_xml("b");
+  std::string crowd;
+  for (int i = 0; i < 1001; ++i) crowd += "x" + std::to_string(i) + "='=' ";
   std::string deep;
   for (int i = 0; i < 5000; ++i) deep += "<a>";
   const std::pair<std::string, std::string> bad[] = {
@@ -207,7 +209,11 @@ TEST(Urdf, ThatIsNoRobotIsRefusedInOneSentence) {
        "axis of no length"},
       {"<robot name='r'>" + ab + joint_xml("x", "revolute", "a", "b", "<mimic joint='z'/>") + "</robot>",
        "mimics \"z\""},
+      {"<robot name='r'>" + ab + joint_xml("x", "fixed", "a", "b", "<origin xyz='%s%s%n%n 0 0'/>") +
+           "</robot>",
+       "an element is malformed"},
       {"<robot name='r'>" + ab + joint_xml("x", "revolute", "a", "b", "<mimic joint='x'/>") + "</robot>", ""},
+      {"<robot name='r'>" + ab + "<link name='c' " + crowd + "/></robot>", "more than 1000 attributes"},
       {deep, "nested"}};
   for (const auto& [xml, says] : bad) {
     testing::internal::CaptureStderr();

@@ -205,6 +205,10 @@ TEST(DefaultNoiseModel, EstimatesTheNoiseOfAPlaneWhateverItsDensity) {
   EXPECT_NEAR(estimated_sigma(noisy_plane(0.002, 0.002, 100)), 0.002, 0.0004);
 }
 
+TEST(DefaultNoiseModel, EstimatesTheSameFromPartOfMoreThanAMillionPoints) {
+  EXPECT_NEAR(estimated_sigma(noisy_plane(0.004, 0.002, 1100)), 0.002, 0.0002);
+}
+
 TEST(DefaultNoiseModel, CountsRepeatedPointsOnce) {
   const Scan once = noisy_plane(0.02, 0.002, 40);
   Scan often = once;

@@ -5,6 +5,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cstring>
+#include <string>
+#include <vector>
+
+#include "engine/sensor/noise_presets.h"
 
 namespace patchlab {
 namespace {
@@ -12,7 +16,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-NoiseModel model(const char* specification) { return *noise_model(specification); }
+NoiseModel model(std::string_view specification) { return *noise_model(specification); }
 
 // Far below what float positions resolve.
 NoiseModel no_noise() { return model("isotropic:1e-12"); }
@@ -178,7 +182,14 @@ class NoiseSample {
   Matrix3d squares_ = Matrix3d::Zero();
 };
 
-class RangeCameraNoise : public testing::TestWithParam<const char*> {};
+std::vector<std::string> every_model() {
+  std::vector<std::string> models = {"stereo:f=400,baseline=0.05,pointing=0.9,disparity=0.05", "lidar",
+                                     "lidar:range=0.01,angle=0.004", "isotropic:0.002", "estimated:0.003"};
+  for (const NoisePreset& preset : noise_presets()) models.emplace_back(preset.name);
+  return models;
+}
+
+class RangeCameraNoise : public testing::TestWithParam<std::string> {};
 
 TEST_P(RangeCameraNoise, HasTheModelsCovarianceOverSeeds) {
   Camera camera;
@@ -213,12 +224,10 @@ TEST_P(RangeCameraNoise, HasTheModelsCovarianceOverPixels) {
   EXPECT_LT((sample.covariance() - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.03) << sample.covariance();
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, RangeCameraNoise,
-                         testing::Values("kinect1", "khoshelham", "nguyen", "kinect2", "azure_kinect",
-                                         "realsense_d435", "lidar", "lidar:range=0.01,angle=0.004",
-                                         "isotropic:0.002",
-                                         "stereo:f=400,baseline=0.05,pointing=0.9,disparity=0.05"),
-                         [](const auto& model) { return "Model" + std::to_string(model.index); });
+INSTANTIATE_TEST_SUITE_P(Models, RangeCameraNoise, testing::ValuesIn(every_model()), [](const auto& model) {
+  std::string name = model.param.substr(0, model.param.find(':'));
+  return name + "_" + std::to_string(model.index);
+});
 
 }  // namespace
 }  // namespace patchlab
