@@ -106,7 +106,7 @@ std::string to_text(const Scan& scan, const Size& size) {
     text += line("outliers    ", json["far_outliers"].dump() +
                                      " points are ten times farther from the middle than nine tenths of all");
   }
-  if (size) text += line("memory      ", memory_of(*size) + " to open it");
+  if (size && size->bytes >= 1 << 20) text += line("memory      ", memory_of(*size) + " to open it");
   for (const std::string& notice : scan.notices) text += line("notice      ", notice);
   return text;
 }

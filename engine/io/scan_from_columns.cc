@@ -90,7 +90,6 @@ void use_viewpoints(Scan& scan, const Points& viewpoints) {
     scan.viewpoints.push_back((viewpoint - scan.origin).cast<float>());
     unknown += scan.viewpoints.back().allFinite() ? 0 : 1;
   }
-  scan.notices.emplace_back("Each point has the position of its sensor (vp_x vp_y vp_z).");
   if (unknown > 0)
     scan.notices.push_back(
         "Points whose sensor position is not finite are taken as seen from the viewpoint of the scan: " +
