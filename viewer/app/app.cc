@@ -79,10 +79,12 @@ void App::open(const std::filesystem::path& file, const ScanWishes& wishes) {
 }
 
 // A reader that needs more than the file says names the flag of the command line; here the user is asked.
-void App::ask_what_is_missing(const Error& error) {
-  if (options_.asks && !memory_.scan_form.is_open() &&
-      error.message.find("--intrinsics") != std::string::npos)
+bool App::ask_what_is_missing(const Error& error) {
+  const bool asks = options_.asks && !memory_.scan_form.is_open() &&
+                    error.message.find("--intrinsics") != std::string::npos;
+  if (asks)
     memory_.scan_form.ask_camera(asked_for_, error.message.substr(0, error.message.find("; give")) + ".");
+  return asks;
 }
 
 // All but what is open.
@@ -108,9 +110,8 @@ void App::toast(const std::string& text, bool is_error) {
 void App::collect() {
   workbench_.deliver();
   for (const Error& error : workbench_.take_errors()) {
-    toast(error.message, true);
     errors_.push_back(error);
-    ask_what_is_missing(error);
+    if (!ask_what_is_missing(error)) toast(error.message, true);
   }
   for (const std::string& notice : workbench_.take_notices()) toast(notice, false);
   std::erase_if(state_.toasts, [](const Toast& shown) { return shown.until < ImGui::GetTime(); });

@@ -70,7 +70,7 @@ class App {
   void set_up_camera();
   void make_shades();
   void make_sigmas();
-  void ask_what_is_missing(const Error& error);
+  bool ask_what_is_missing(const Error& error);  // false: nothing to ask
   void ask_for_unit();
   void show_measured();
   void find_earlier_work();

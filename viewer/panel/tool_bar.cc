@@ -1,4 +1,6 @@
+#include <span>
 #include <string>
+#include <utility>
 
 #include "viewer/panel/panels.h"
 
@@ -30,16 +32,25 @@ constexpr ToolButton kRobust[] = {{Action::robust, "Reject outliers", "R"}};
 
 SelectMode mode_shown(const ViewState& state) { return state.drawing ? state.contour_mode : state.mode; }
 
-template <std::size_t n>
-float group_width(const Gui& gui, const ToolButton (&tools)[n], bool keys) {
-  float width = gui.px(24);
-  for (const ToolButton& tool : tools)
-    width += button_width(gui, tool.text, keys ? tool.key : "") + gui.px(4);
+// Where there is too little room for all, the less important ones are in the menus alone.
+struct Group {
+  std::span<const ToolButton> tools;
+  int importance;
+};
+constexpr Group kGroups[] = {{kTools, 4}, {kModes, 1}, {kBasis, 2}, {kSurfaces, 3}, {kRobust, 0}};
+
+float width_of(const Gui& gui, int least_importance, bool keys) {
+  float width = 0;
+  for (const Group& group : kGroups) {
+    if (group.importance < least_importance) continue;
+    width += gui.px(24);
+    for (const ToolButton& tool : group.tools)
+      width += button_width(gui, tool.text, keys ? tool.key : "") + gui.px(4);
+  }
   return width;
 }
 
-template <std::size_t n>
-void draw_group(const PanelInput& in, const ToolButton (&tools)[n], bool keys, Requests& out) {
+void draw_group(const PanelInput& in, std::span<const ToolButton> tools, bool keys, Requests& out) {
   ViewState shown = in.state;
   shown.mode = mode_shown(in.state);
   for (const ToolButton& tool : tools) {
@@ -68,19 +79,17 @@ void draw_divider(const Gui& gui) {
 void draw_tool_bar(const PanelInput& in, Requests& out) {
   const Gui& gui = in.gui;
   begin_panel("tools", in.layout.tools, gui.theme.bar, {gui.px(12), gui.px(8)});
-  const float needed = group_width(gui, kTools, true) + group_width(gui, kModes, true) +
-                       group_width(gui, kBasis, true) + group_width(gui, kSurfaces, true) +
-                       group_width(gui, kRobust, true);
-  const bool keys = needed <= in.layout.tools.width;
-  draw_group(in, kTools, keys, out);
-  draw_divider(gui);
-  draw_group(in, kModes, keys, out);
-  draw_divider(gui);
-  draw_group(in, kBasis, keys, out);
-  draw_divider(gui);
-  draw_group(in, kSurfaces, keys, out);
-  draw_divider(gui);
-  draw_group(in, kRobust, keys, out);
+  const float room = in.layout.tools.width - gui.px(12);
+  const bool keys = width_of(gui, 0, true) <= room;
+  int least_importance = 0;
+  while (least_importance < kGroups[0].importance && !keys && width_of(gui, least_importance, false) > room)
+    ++least_importance;
+  bool first = true;
+  for (const Group& group : kGroups) {
+    if (group.importance < least_importance) continue;
+    if (!std::exchange(first, false)) draw_divider(gui);
+    draw_group(in, group.tools, keys, out);
+  }
   end_panel();
 }
 

@@ -32,6 +32,18 @@ TEST_F(ShellTest, APanelIsDraggedWiderAndItsWidthIsRemembered) {
   EXPECT_EQ(program_.app().settings().widths.tree, 250.0f);
 }
 
+TEST_F(ShellTest, NoButtonOfTheToolBarIsCutHoweverNarrowTheWindow) {
+  for (const int width : {1600, 1100, 900, 700}) {
+    program_.resize(width, 640);
+    program_.settle();
+    for (const auto& [name, place] : program_.app().widgets()) {
+      if (!name.starts_with("tools/")) continue;
+      EXPECT_LE(place.right(), static_cast<float>(width)) << name << " at " << width;
+    }
+    EXPECT_TRUE(program_.app().widgets().contains("tools/Lasso"));
+  }
+}
+
 TEST_F(ShellTest, TabGivesTheViewTheRoomOfThePanelsAndBack) {
   program_.play("key Tab\n");
   EXPECT_EQ(program_.app().layout().view.width, program_.app().layout().menu.width);
