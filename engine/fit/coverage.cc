@@ -45,8 +45,18 @@ class CellGrid {
   }
 
  private:
-  int count(double reach) const { return 2 * static_cast<int>(std::ceil(reach / side_)); }
-  int cell(double u, int cells) const { return static_cast<int>(std::floor(u / side_)) + cells / 2; }
+  // Of an outline that reaches farther, the middle is looked at: no number of points fills so many cells.
+  static constexpr double most_each_side = 500.0;
+
+  // Written so that NaN is `most_each_side` too.
+  int count(double reach) const {
+    const double cells = std::ceil(reach / side_);
+    return 2 * static_cast<int>(cells < most_each_side ? cells : most_each_side);
+  }
+  int cell(double u, int cells) const {
+    const double at = std::floor(u / side_);
+    return std::abs(at) <= most_each_side ? static_cast<int>(at) + cells / 2 : -1;
+  }
   double share_inside(int column, int row) const {
     constexpr int fine = 6;
     int hits = 0;
