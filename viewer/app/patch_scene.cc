@@ -6,6 +6,7 @@
 #include "engine/base/chi_square.h"
 #include "engine/mesh/patch_mesh.h"
 #include "engine/patch/marginals.h"
+#include "viewer/app/point_scale.h"
 #include "viewer/app/shapes.h"
 #include "viewer/panel/colours.h"
 

@@ -1,8 +1,21 @@
 // The files of a workbench: scans and journals in, patches and journals out.
+#include "engine/io/scan_size.h"
 #include "viewer/app/journal_file.h"
 #include "viewer/app/workbench.h"
+#include "viewer/panel/numbers.h"
 
 namespace patchlab::viewer {
+namespace {
+
+// With what it will take, where the head of the file tells.
+std::string opening(const std::filesystem::path& file) {
+  const std::string words = "opening " + file.filename().string();
+  const std::optional<ScanSize> size = foresee_scan(file);
+  return size ? words + ": " + count(size->points) + " points, " + size_words(size->bytes) + " of memory"
+              : words;
+}
+
+}  // namespace
 
 void Workbench::open(const std::filesystem::path& file, const ScanWishes& wishes) {
   enqueue([this, file, wishes] {
@@ -53,7 +66,7 @@ void Workbench::open_scan(const std::filesystem::path& file, const ScanWishes& w
   command.unit = wishes.unit;
   command.intrinsics = wishes.intrinsics;
   command.depth_scale = wishes.depth_scale;
-  order("opening " + file.filename().string(),
+  order(opening(file),
         [this, command, before = session_.document()](const Progress& progress) -> Worker::Finish {
           Command wanted = command;
           auto after = std::make_shared<Result<Document>>(apply(before, wanted, with_progress(progress)));

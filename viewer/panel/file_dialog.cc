@@ -8,6 +8,7 @@
 
 #include "engine/export/export.h"
 #include "viewer/panel/colours.h"
+#include "viewer/panel/numbers.h"
 #include "viewer/panel/panels.h"
 #include "viewer/platform/key.h"
 

@@ -16,8 +16,6 @@ struct PanelInput;
 
 enum class FilePurpose { open, save_journal, export_patches, save_picture };
 
-std::string size_words(std::uintmax_t bytes);  // "12 kB"
-
 class FileDialog {
  public:
   // `name` is what the path box starts with when something is to be written.

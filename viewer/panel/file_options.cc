@@ -46,11 +46,6 @@ std::vector<std::string> first_lines(const std::string& bytes) {
 
 }  // namespace
 
-std::string size_words(std::uintmax_t bytes) {
-  const double kilo = static_cast<double>(bytes) / 1000.0;
-  return kilo < 1000.0 ? significant(kilo, 2) + " kB" : significant(kilo / 1000.0, 2) + " MB";
-}
-
 // Made once a format: what is written then.
 void FileDialog::make_preview(const PanelInput& in) {
   if (preview_of_ == static_cast<int>(format_)) return;

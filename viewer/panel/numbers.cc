@@ -85,6 +85,12 @@ std::string duration(double seconds) {
   return seconds < 1.0 ? significant(seconds * 1e3, 2) + " ms" : significant(seconds, 2) + " s";
 }
 
+std::string size_words(std::uintmax_t bytes) {
+  const double kilo = static_cast<double>(bytes) / 1e3;
+  if (kilo < 1e3) return significant(kilo, 2) + " kB";
+  return kilo < 1e6 ? significant(kilo / 1e3, 2) + " MB" : significant(kilo / 1e6, 2) + " GB";
+}
+
 std::string p_value_text(double p) { return p < 0.001 ? "p < 0.001" : "p " + fixed(p, p < 0.01 ? 3 : 2); }
 
 }  // namespace patchlab::viewer

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace patchlab::viewer {
@@ -22,9 +23,10 @@ std::string quantity(double value, Dimension dimension, int digits = 3);
 
 std::string fixed(double value, int decimals);  // "−0.52"
 std::string significant(double value, int digits);
-std::string count(std::size_t number);        // "307,200"
-std::string short_count(std::size_t number);  // "307k"
-std::string duration(double seconds);         // "0.9 ms", "12 s"
-std::string p_value_text(double p);           // "p 0.41", "p < 0.001"
+std::string count(std::size_t number);         // "307,200"
+std::string short_count(std::size_t number);   // "307k"
+std::string duration(double seconds);          // "0.9 ms", "12 s"
+std::string size_words(std::uintmax_t bytes);  // "12 kB", "1.5 GB"
+std::string p_value_text(double p);            // "p 0.41", "p < 0.001"
 
 }  // namespace patchlab::viewer

@@ -50,6 +50,12 @@ TEST(Count, IsGroupedInThrees) {
   EXPECT_EQ(short_count(5'000'000), "5.0M");
 }
 
+TEST(SizeWords, TakesTheUnitThatFits) {
+  EXPECT_EQ(size_words(1200), "1.2 kB");
+  EXPECT_EQ(size_words(127'400'000), "127 MB");
+  EXPECT_EQ(size_words(1'540'000'000), "1.5 GB");
+}
+
 TEST(PValue, SaysWhenItIsTinyInsteadOfZero) {
   EXPECT_EQ(p_value_text(0.41), "p 0.41");
   EXPECT_EQ(p_value_text(0.004), "p 0.004");
