@@ -4,6 +4,7 @@
 #include "engine/cli/output.h"
 #include "engine/cli/verb.h"
 #include "engine/export/export.h"
+#include "engine/project/measured_points.h"
 #include "engine/project/session.h"
 
 namespace patchlab {
@@ -62,8 +63,9 @@ Result<int> replay_journal(const ReplayRequest& request) {
   Outputs outputs;
   if (!request.output.empty()) outputs.add(request.output, *text);
   std::vector<std::string> notices;
+  const ExportOptions with_points{.measured = measured_points(*document)};
   for (const auto& [format, file] : *exports) {
-    Result<Exported> exported = export_patches(*format, set);
+    Result<Exported> exported = export_patches(*format, set, with_points);
     if (!exported) return exported.error();
     notices.insert(notices.end(), exported->notices.begin(), exported->notices.end());
     outputs.add(file, std::move(*exported));

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/fit/observation.h"
 #include "engine/io/patch_set.h"
 
 namespace patchlab {
@@ -24,6 +26,9 @@ struct ExportOptions {
   double foot_radius = 0.0;                   // footholds: m, kept away from the outline besides
   Vector3d up = Vector3d::UnitZ();            // footholds: against gravity, in the frame of the patches
   double tilt_limit = 0.5235987755982988;     // footholds: rad, whose probability to be exceeded is written
+  // By patch id, in its frame: the points that it was fitted to, for a bag of ROS 1. A patch set keeps none;
+  // of a patch that has none here, points of its surface are written.
+  std::map<std::string, Observations> measured = {};
 };
 
 struct ExportedFile {

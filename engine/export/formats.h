@@ -44,7 +44,8 @@ Result<Exported> export_urdf(const PatchSet& set, const ExportOptions& options);
 Result<Exported> export_mjcf(const PatchSet& set, const ExportOptions& options);
 
 // A bag of ROS 1 (2.0, not compressed) and a folder of YAML for `ros2 topic pub`, one file a message:
-// markers, a pose with covariance a patch, points with covariances (engine/export/patch_messages.h).
+// markers, a pose with covariance a patch, points with covariances (engine/export/patch_messages.h). The bag
+// holds the measured points where they are given; the YAML, which has to fit an argument, never does.
 Result<Exported> export_ros1_bag(const PatchSet& set, const ExportOptions& options);
 Result<Exported> export_ros2_yaml(const PatchSet& set, const ExportOptions& options);
 

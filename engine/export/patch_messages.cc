@@ -104,16 +104,26 @@ ordered_json field_messages() {
   return fields;
 }
 
-ordered_json cloud_message(const PatchRecord& record, std::uint32_t number) {
-  const Patch& patch = record.patch;
+// Points of the surface, each known as well as its height.
+Observations surface_points(const Patch& patch) {
   const Triangles mesh = open_surface(patch, cloud_cells);
   const Matrix3d R = axes(patch);
-  std::string bytes;
+  Observations out;
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    const Vector3d q = R * mesh.points[i] + centre(patch);
     const Vector3d n = height_sigma(patch, mesh.u[i]) * (R * mesh.normals[i]);
-    for (const double value : {q.x(), q.y(), q.z(), n.x() * n.x(), n.x() * n.y(), n.x() * n.z(),
-                               n.y() * n.y(), n.y() * n.z(), n.z() * n.z()})
+    out.points.push_back(R * mesh.points[i] + centre(patch));
+    out.covariances.push_back(n * n.transpose());
+  }
+  return out;
+}
+
+ordered_json cloud_message(const PatchRecord& record, std::uint32_t number, const Observations& cloud) {
+  std::string bytes;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vector3d& q = cloud.points[i];
+    const Matrix3d& cov = cloud.covariances[i];
+    for (const double value :
+         {q.x(), q.y(), q.z(), cov(0, 0), cov(0, 1), cov(0, 2), cov(1, 1), cov(1, 2), cov(2, 2)})
       append_bytes(bytes, static_cast<float>(value));
     append_bytes(bytes, number);
   }
@@ -121,7 +131,7 @@ ordered_json cloud_message(const PatchRecord& record, std::uint32_t number) {
   for (const char byte : bytes) data.push_back(static_cast<std::uint8_t>(byte));
   return {{"header", header_in(record.frame_id)},
           {"height", 1},
-          {"width", mesh.points.size()},
+          {"width", cloud.size()},
           {"fields", field_messages()},
           {"is_bigendian", false},
           {"point_step", 4 * std::size(cloud_fields)},
@@ -132,7 +142,8 @@ ordered_json cloud_message(const PatchRecord& record, std::uint32_t number) {
 
 }  // namespace
 
-Result<PatchMessages> patch_messages(const PatchSet& set, int cells) {
+Result<PatchMessages> patch_messages(const PatchSet& set, const std::map<std::string, Observations>& measured,
+                                     int cells) {
   PatchMessages out;
   for (std::size_t i = 0; i < set.patches.size(); ++i) {
     const PatchRecord& record = set.patches[i];
@@ -148,8 +159,11 @@ Result<PatchMessages> patch_messages(const PatchSet& set, int cells) {
       markers.push_back(ellipsoid_marker(record));
       out.poses.push_back(
           {topic + "/pose", "geometry_msgs/PoseWithCovarianceStamped", pose_with_covariance(record)});
-      out.points.push_back({topic + "/points", "sensor_msgs/PointCloud2",
-                            cloud_message(record, static_cast<std::uint32_t>(i))});
+      const auto at_hand = measured.find(record.id);
+      out.points.push_back(
+          {topic + "/points", "sensor_msgs/PointCloud2",
+           cloud_message(record, static_cast<std::uint32_t>(i),
+                         at_hand == measured.end() ? surface_points(record.patch) : at_hand->second)});
     } else {
       out.notices.push_back("patch \"" + record.id +
                             "\": has no covariance, so its pose, ellipsoid and points were left out.");

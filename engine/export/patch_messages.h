@@ -2,6 +2,7 @@
 // transform).
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,14 +19,17 @@ struct PatchMessages {
   // /patches/NAME/pose, PoseWithCovarianceStamped: the covariance of (position, rotation about fixed parent
   // axes); an unknown spin has variance pi^2/3.
   std::vector<RosMessage> poses;
-  // /patches/NAME/points, PointCloud2: points of the surface, x y z, the covariance that their height along
-  // the normal gives them (cov_xx ... cov_zz, m^2; single precision) and the number of the patch.
+  // /patches/NAME/points, PointCloud2: x y z (m) and covariance (cov_xx ... cov_zz, m^2; single precision)
+  // of the points that the patch was fitted to, or else of points of its surface, by the variance of its
+  // height; and the number of the patch.
   std::vector<RosMessage> points;
   std::vector<std::string>
       notices;  // patches without a covariance have neither pose nor ellipsoid nor points
 };
-// Surfaces of `cells` cells along each side. refused error for a patch that names no frame.
-Result<PatchMessages> patch_messages(const PatchSet& set, int cells);
+// Surfaces of `cells` cells along each side; `measured` as of ExportOptions. refused error for a patch that
+// names no frame.
+Result<PatchMessages> patch_messages(const PatchSet& set, const std::map<std::string, Observations>& measured,
+                                     int cells);
 // The markers of all patches in one message; markers that are there already are deleted first.
 RosMessage all_markers(const PatchMessages& messages);
 

@@ -93,8 +93,8 @@ std::string bag_bytes(const Chunk& all) {
 
 }  // namespace
 
-Result<Exported> export_ros1_bag(const PatchSet& set, const ExportOptions&) {
-  Result<PatchMessages> messages = patch_messages(set, 24);
+Result<Exported> export_ros1_bag(const PatchSet& set, const ExportOptions& options) {
+  Result<PatchMessages> messages = patch_messages(set, options.measured, 24);
   if (!messages) return messages.error();
   Chunk all;
   all.add(all_markers(*messages));

@@ -66,7 +66,7 @@ ExportedFile yaml_file(const RosMessage& message, const std::string& name) {
 
 Result<Exported> export_ros2_yaml(const PatchSet& set, const ExportOptions&) {
   constexpr int cells = 8;  // so that each file fits an argument of a command, 128 kB
-  Result<PatchMessages> messages = patch_messages(set, cells);
+  Result<PatchMessages> messages = patch_messages(set, {}, cells);
   if (!messages) return messages.error();
   Exported out{{}, std::move(messages->notices)};
   for (std::size_t i = 0; i < set.patches.size(); ++i)

@@ -176,8 +176,8 @@ PatchSource source_from_json(const JsonPlace& place) {
 }
 
 std::string optional_text(const JsonPlace& place, const std::string& key) {
-  const auto member = place.find(key);
-  return member ? member->text() : std::string();
+  const auto text = place.find(key);
+  return text ? text->text() : std::string();
 }
 
 PatchRecord record_from_json(const JsonPlace& unnamed) {

@@ -7,6 +7,7 @@
 
 #include "engine/base/file.h"
 #include "engine/export/export.h"
+#include "engine/project/measured_points.h"
 
 namespace patchlab::viewer {
 
@@ -165,8 +166,8 @@ Result<void> export_patches(const Document& document, const fs::path& journal, c
                             const fs::path& file) {
   const Result<const ExportFormat*> chosen = export_format(format);
   if (!chosen) return chosen.error();
-  const Result<Exported> exported =
-      patchlab::export_patches(**chosen, patch_set(document, journal.filename().string()));
+  const Result<Exported> exported = patchlab::export_patches(
+      **chosen, patch_set(document, journal.filename().string()), {.measured = measured_points(document)});
   if (!exported) return exported.error();
   return write_exported(*exported, file);
 }
