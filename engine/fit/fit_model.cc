@@ -10,10 +10,9 @@ namespace {
 
 // A refit starts at the kept surface. A paraboloid's does so at the 2-jet over the new centroid, to which its
 // vertex is tied, with the kept axes.
-std::vector<SurfaceState> first_states(const Samples& samples, const SurfaceModel& model,
-                                       const ModelStart& start) {
+Starts first_states(const Samples& samples, const SurfaceModel& model, const ModelStart& start) {
   if (start.kept && !model.vertex_prior) return {*start.kept};
-  std::vector<SurfaceState> all = starts(samples, model, start.two_jet.state);
+  const Starts all = starts(samples, model, start.two_jet.state);
   if (!start.kept) return all;
   const Vector3d x = start.kept->R.col(0);
   const auto along = [&](const SurfaceState& state) { return std::abs(x.dot(state.R.col(0))); };
@@ -35,7 +34,7 @@ SurfaceFit quadratic_fit(Samples& samples, const SurfaceState& plane) {
 }
 
 SurfaceFit fit_model(const Samples& samples, const SurfaceModel& model, const ModelStart& start) {
-  const std::vector<SurfaceState> first = first_states(samples, model, start);
+  const Starts first = first_states(samples, model, start);
   if (!model.vertex_prior) return fit_surface(samples, model, first, {});
   const SurfaceFit fixed = fit_surface(samples, fixed_centre(model), first, {});
   const VertexStart vertex = vertex_start(samples, fixed);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/fit/sample_rows.h"
 #include "engine/patch/surface.h"
 
 namespace patchlab {
@@ -18,6 +19,38 @@ double tukey_loss(double F) {
   return tukey_constant * tukey_constant / 3.0 * (1.0 - inside * inside * inside);
 }
 
+bool counts(const Samples& samples, std::size_t i) {
+  return samples.robust[i] != 0.0 && samples.bends[i] != 0;
+}
+std::size_t how_many_count(const Samples& samples, std::size_t first, std::size_t count) {
+  std::size_t counted = 0;
+  for (std::size_t i = first; i < first + count; ++i) counted += counts(samples, i) ? 1 : 0;
+  return counted;
+}
+
+// Rows of a block as the sums are to take them: scaled by the root of their weight, 0 where a sample does not
+// count, whatever was there. The loss and chi-square of those that count.
+struct Losses {
+  double cost = 0.0, chi2 = 0.0;
+};
+Losses weigh(const Samples& samples, const SurfaceFitOptions& options, std::size_t first, std::size_t count,
+             RowBlock& rows) {
+  double scale[block_size];
+  Losses losses;
+  for (std::size_t i = 0; i < count; ++i) {
+    scale[i] = 0.0;
+    if (!counts(samples, first + i)) continue;
+    const double F = rows.row[chart_size][i], sigma = options.robust_scale;
+    scale[i] = options.robust ? std::sqrt(tukey_weight(F / sigma)) : 1.0;
+    losses.cost += options.robust ? sigma * sigma * tukey_loss(F / sigma) : F * F;
+    losses.chi2 += F * F;
+  }
+  for (auto& row : rows.row) {
+    for (std::size_t i = 0; i < count; ++i) row[i] = scale[i] > 0.0 ? scale[i] * row[i] : 0.0;
+  }
+  return losses;
+}
+
 // The problem that engine/fit/least_squares.h solves, Eq. (33), with the prior as two more residuals.
 class SurfaceProblem {
  public:
@@ -28,20 +61,29 @@ class SurfaceProblem {
       : samples_(samples), model_(model), options_(options), prior_(prior) {}
 
   NormalEquations evaluate(const SurfaceState& state) const {
-    ChartMatrix A = ChartMatrix::Zero();
-    ChartVector b = ChartVector::Zero();
-    double cost = 0.0;
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (samples_.robust[i] == 0.0 || samples_.bends[i] == 0) continue;
-      const Residual r = residual(options_.distance, model_, state, samples_.q[i], samples_.cov[i]);
-      const double scale = options_.robust_scale;
-      const double weight = options_.robust ? tukey_weight(r.F / scale) : 1.0;
-      cost += options_.robust ? scale * scale * tukey_loss(r.F / scale) : r.F * r.F;
-      A.noalias() += weight * r.F_p * r.F_p.transpose();
-      b.noalias() += weight * r.F * r.F_p;
+    const SampleRows rows(samples_, model_, state, options_.distance);
+    RowSums sums;
+    RowBlock block;
+    Losses losses;
+    for (std::size_t b = 0; b < rows.blocks(); ++b) {
+      const std::size_t at = b * block_size, count = rows.count(b),
+                        counted = how_many_count(samples_, at, count);
+      if (counted == 0) continue;
+      rows.evaluate(b, block);
+      if (options_.robust || counted < count) {
+        const Losses of_block = weigh(samples_, options_, at, count, block);
+        losses.cost += of_block.cost;
+        losses.chi2 += of_block.chi2;
+      }
+      rows.add(block, b, model_.free_indices(), sums);
     }
-    if (prior_) add_prior(state, A, b, cost);
-    return reduced(A, b, cost);
+    NormalEquations equations = normal_equations(sums, model_.free_size);
+    if (options_.robust) {
+      equations.cost = losses.cost;
+      equations.chi2 = losses.chi2;
+    }
+    if (prior_) add_prior(state, equations);
+    return equations;
   }
 
   SurfaceState retract(const SurfaceState& state, const StepVector& step) const {
@@ -49,28 +91,17 @@ class SurfaceProblem {
   }
 
  private:
-  void add_prior(const SurfaceState& state, ChartMatrix& A, ChartVector& b, double& cost) const {
+  void add_prior(const SurfaceState& state, NormalEquations& equations) const {
     for (int axis = 0; axis < 2; ++axis) {
       const Vector3d tangent = prior_->tangents.col(axis) / prior_->sigma;
       const double F = tangent.dot(state.c - prior_->centre);
-      ChartVector F_p = ChartVector::Zero();
-      F_p.tail<3>() = state.R.transpose() * tangent;
-      A.noalias() += F_p * F_p.transpose();
-      b.noalias() += F * F_p;
-      cost += F * F;
+      ChartVector row = ChartVector::Zero();
+      row.tail<3>() = state.R.transpose() * tangent;
+      const StepVector F_p = reduced(model_, row);
+      equations.A.noalias() += F_p * F_p.transpose();
+      equations.b.noalias() += F * F_p;
+      equations.cost += F * F;
     }
-  }
-
-  NormalEquations reduced(const ChartMatrix& A, const ChartVector& b, double cost) const {
-    const int n = model_.free_size;
-    NormalEquations equations{cost, StepMatrix(n, n), StepVector(n)};
-    const auto free = model_.free_indices();
-    for (int i = 0; i < n; ++i) {
-      const int row = free[static_cast<std::size_t>(i)];
-      equations.b[i] = b[row];
-      for (int j = 0; j < n; ++j) equations.A(i, j) = A(row, free[static_cast<std::size_t>(j)]);
-    }
-    return equations;
   }
 
   const Samples& samples_;
@@ -82,18 +113,16 @@ class SurfaceProblem {
 double chi_square(const Samples& samples, const SurfaceModel& model, const SurfaceState& state,
                   Distance distance) {
   double chi2 = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples.robust[i] == 0.0 || samples.bends[i] == 0) continue;
-    const double F = residual(distance, model, state, samples.q[i], samples.cov[i]).F;
-    chi2 += F * F;
-  }
+  for_each_residual(SampleRows(samples, model, state, distance), [&](std::size_t i, const Residual& r) {
+    if (samples.robust[i] != 0.0 && samples.bends[i] != 0) chi2 += r.F * r.F;
+  });
   return chi2;
 }
 
 // The first two, and of the others those that are better than both as they stand.
-std::vector<SurfaceState> worth_trying(const Samples& samples, const SurfaceModel& model,
-                                       const std::vector<SurfaceState>& starts, Distance distance) {
-  std::vector<SurfaceState> tried;
+Starts worth_trying(const Samples& samples, const SurfaceModel& model, const Starts& starts,
+                    Distance distance) {
+  Starts tried;
   double least = std::numeric_limits<double>::infinity();
   for (const SurfaceState& start : starts) {
     const double chi2 = starts.size() > 2 ? chi_square(samples, model, start, distance) : 0.0;
@@ -102,6 +131,20 @@ std::vector<SurfaceState> worth_trying(const Samples& samples, const SurfaceMode
     least = std::min(least, chi2);
   }
   return tried;
+}
+
+// Method M3, not yet of sum 1.
+double footprint(const Samples& samples, const SurfaceFit& fit, std::size_t i, const Residual& r) {
+  constexpr double least_cosine = 0.15;
+  if (samples.robust[i] == 0.0) return 0.0;
+  const std::optional<Vector3d>& axis = samples.observations->optical_axis;
+  if (!axis) return 1.0;
+  const Vector3d n = r.g.normalized();
+  const Vector3d from_camera = fit.state.c + fit.state.R * r.x - samples.viewpoint(i);
+  const Vector3d ray = from_camera.normalized();
+  const double depth = axis->dot(from_camera), cos_psi = std::abs(axis->dot(ray));
+  const double facing = std::max(std::abs(n.dot(fit.state.R.transpose() * ray)), least_cosine);
+  return std::max(depth * depth * cos_psi * std::abs(n.z()) / facing, 0.0);
 }
 
 }  // namespace
@@ -129,14 +172,13 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const 
   fit.cost = summary.at_solution.cost;
   fit.iterations = summary.iterations;
   fit.converged = summary.converged;
-  fit.chi2 = chi_square(samples, model, fit.state, options.distance);
+  fit.chi2 = summary.at_solution.chi2;
   return fit;
 }
 
-SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model,
-                       const std::vector<SurfaceState>& starts, const SurfaceFitOptions& options,
-                       const std::optional<VertexPrior>& prior) {
-  if (starts.size() == 1) return fit_surface(samples, model, starts.front(), options, prior);
+SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const Starts& starts,
+                       const SurfaceFitOptions& options, const std::optional<VertexPrior>& prior) {
+  if (starts.size() == 1) return fit_surface(samples, model, *starts.begin(), options, prior);
   SurfaceFitOptions brief = options;
   brief.solver.max_iterations = std::min(options.solver.max_iterations, trial_iterations);
   SurfaceFit best;
@@ -156,27 +198,16 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model,
 }
 
 FootPoints foot_points(const Samples& samples, const SurfaceFit& fit) {
-  constexpr double least_cosine = 0.15;
-  const std::optional<Vector3d>& axis = samples.observations->optical_axis;
   FootPoints feet;
   feet.x.reserve(samples.size());
   feet.weight.reserve(samples.size());
   double sum = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Residual r = residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]);
-    double weight = samples.robust[i] > 0.0 ? 1.0 : 0.0;
-    if (axis) {
-      const Vector3d n = r.g.normalized();
-      const Vector3d from_camera = fit.state.c + fit.state.R * r.x - samples.viewpoint(i);
-      const Vector3d ray = from_camera.normalized();
-      const double depth = axis->dot(from_camera), cos_psi = std::abs(axis->dot(ray));
-      const double facing = std::max(std::abs(n.dot(fit.state.R.transpose() * ray)), least_cosine);
-      weight *= depth * depth * cos_psi * std::abs(n.z()) / facing;  // method M3
-    }
+  const SampleRows rows(samples, fit.model, fit.state, Distance::exact);
+  for_each_residual(rows, [&](std::size_t i, const Residual& r) {
     feet.x.push_back(r.x);
-    feet.weight.push_back(std::max(weight, 0.0));
+    feet.weight.push_back(footprint(samples, fit, i, r));
     sum += feet.weight.back();
-  }
+  });
   for (double& weight : feet.weight) weight /= sum;
   return feet;
 }
@@ -194,14 +225,17 @@ FootPoints plain_projection(const Samples& samples, const SurfaceFit& fit) {
 }
 
 VertexStart vertex_start(const Samples& samples, const SurfaceFit& fixed) {
-  const FootPoints feet = foot_points(samples, fixed);
-  Vector2d centroid = Vector2d::Zero();
-  for (std::size_t i = 0; i < feet.x.size(); ++i) centroid += feet.weight[i] * feet.x[i].head<2>();
-  double spread = 0.0;
-  for (std::size_t i = 0; i < feet.x.size(); ++i) {
-    spread += feet.weight[i] * (feet.x[i].head<2>() - centroid).squaredNorm();
-  }
-  const double size = 2.0 * std::sqrt(0.5 * spread);
+  double total = 0.0, squares = 0.0;
+  Vector2d sum = Vector2d::Zero();
+  const SampleRows rows(samples, fixed.model, fixed.state, Distance::exact);
+  for_each_residual(rows, [&](std::size_t i, const Residual& r) {
+    const double weight = footprint(samples, fixed, i, r);
+    total += weight;
+    sum += weight * r.x.head<2>();
+    squares += weight * r.x.head<2>().squaredNorm();
+  });
+  const Vector2d centroid = sum / total;
+  const double size = 2.0 * std::sqrt(0.5 * std::max(squares / total - centroid.squaredNorm(), 0.0));
   const Vector3d kappa = k3(fixed.model, fixed.state.k);
   const Vector3d centre = surface_point(centroid, kappa);
   VertexStart start;
@@ -216,10 +250,10 @@ VertexStart vertex_start(const Samples& samples, const SurfaceFit& fixed) {
 bool reevaluate_noise(Samples& samples, const SurfaceFit& fit) {
   const auto& covariance_at = samples.observations->covariance_at;
   if (!covariance_at) return false;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Residual r = residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]);
-    samples.cov[i] = covariance_at(i, samples.origin + fit.state.c + fit.state.R * r.x);
-  }
+  const SampleRows rows(samples, fit.model, fit.state, Distance::exact);
+  for_each_residual(rows, [&](std::size_t i, const Residual& r) {
+    samples.set_cov(i, covariance_at(i, samples.origin + fit.state.c + fit.state.R * r.x));
+  });
   return true;
 }
 

@@ -47,8 +47,8 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const 
                        const SurfaceFitOptions& options,
                        const std::optional<VertexPrior>& prior = std::nullopt);
 // The best of a model's starts: each is tried for a few iterations, the one of least cost goes on.
-SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model,
-                       const std::vector<SurfaceState>& starts, const SurfaceFitOptions& options,
+SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const Starts& starts,
+                       const SurfaceFitOptions& options,
                        const std::optional<VertexPrior>& prior = std::nullopt);
 
 // Tukey's weight of a residual in standard deviations.

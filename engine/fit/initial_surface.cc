@@ -1,9 +1,11 @@
 #include "engine/fit/initial_surface.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "engine/fit/sample_rows.h"
 #include "engine/fit/solve_least.h"
 
 namespace patchlab {
@@ -53,14 +55,49 @@ double weight_along(const Matrix3d& cov, const Vector3d& normal) {
   return 1.0 / std::max(normal.dot(cov * normal), 1e-12 * cov.trace() + 1e-300);
 }
 
-Vector6 fit_heights(const Samples& samples, const SurfaceState& frame) {
-  HeightSums sums{.size = extent(samples)};
-  const Vector3d normal = frame.R.col(2);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples.robust[i] == 0.0 || samples.bends[i] == 0) continue;
-    sums.add(to_local(frame, samples.q[i]), samples.robust[i] * weight_along(samples.cov[i], normal));
+// A block's rows sqrt(weight) (1, x, y, x^2/2, xy, y^2/2, z) in coordinates divided by `size`; two of 0.
+void height_rows(const SampleBlock& block, const double* share, const SurfaceState& frame, double size,
+                 RowBlock& rows) {
+  const Matrix3d axes = frame.R / size;
+  const Vector3d c = frame.c, n = frame.R.col(2);
+  for (std::size_t i = 0; i < block_size; ++i) {
+    const double a = block.q[0][i] - c[0], b = block.q[1][i] - c[1], d = block.q[2][i] - c[2];
+    const double x = axes(0, 0) * a + axes(1, 0) * b + axes(2, 0) * d;
+    const double y = axes(0, 1) * a + axes(1, 1) * b + axes(2, 1) * d;
+    const double z = axes(0, 2) * a + axes(1, 2) * b + axes(2, 2) * d;
+    const double xx = block.cov[0][i], xy = block.cov[1][i], xz = block.cov[2][i];
+    const double yy = block.cov[3][i], yz = block.cov[4][i], zz = block.cov[5][i];
+    const double v = n[0] * (n[0] * xx + 2.0 * (n[1] * xy + n[2] * xz)) +
+                     n[1] * (n[1] * yy + 2.0 * n[2] * yz) + n[2] * n[2] * zz;
+    const double root = std::sqrt(share[i] / std::max(v, 1e-12 * (xx + yy + zz) + 1e-300));
+    rows.row[0][i] = root;
+    rows.row[1][i] = root * x;
+    rows.row[2][i] = root * y;
+    rows.row[3][i] = 0.5 * root * x * x;
+    rows.row[4][i] = root * x * y;
+    rows.row[5][i] = 0.5 * root * y * y;
+    rows.row[6][i] = root * z;
+    rows.row[7][i] = rows.row[8][i] = 0.0;
   }
-  return sums.solve();
+}
+
+Vector6 fit_heights(const Samples& samples, const SurfaceState& frame) {
+  const double size = extent(samples);
+  const double* columns[row_count];
+  RowBlock rows;
+  for (std::size_t row = 0; row < row_count; ++row) columns[row] = rows.row[row];
+  RowSums sums;
+  for (std::size_t b = 0; b < samples.blocks.size(); ++b) {
+    double share[block_size] = {};
+    for (std::size_t i = b * block_size; i < std::min((b + 1) * block_size, samples.size()); ++i) {
+      share[i % block_size] = samples.robust[i] * samples.bends[i];
+    }
+    height_rows(samples.blocks[b], share, frame, size, rows);
+    fastest_rows().add(columns, row_count / 3, block_size, sums);
+  }
+  const NormalEquations equations = normal_equations(sums, 6);
+  HeightSums heights{equations.A, equations.b, size};
+  return heights.solve();
 }
 
 SurfaceState reframed(const SurfaceState& frame, const Vector6& a) {
@@ -109,7 +146,7 @@ SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) 
 // Circular cylinders along the principal axes of the points, each by an algebraic circle across its axis:
 // what points all round a can or a pipe ask for, where no height field exists. The apex lies on the side of
 // the points, z_l towards the viewpoint.
-std::vector<SurfaceState> algebraic_cylinders(const Samples& samples) {
+std::array<SurfaceState, 3> algebraic_cylinders(const Samples& samples) {
   const Vector3d mean = weighted_mean(samples);
   Matrix3d scatter = Matrix3d::Zero();
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -117,7 +154,7 @@ std::vector<SurfaceState> algebraic_cylinders(const Samples& samples) {
   }
   const Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(scatter).eigenvectors();
   const double size = extent(samples);
-  std::vector<SurfaceState> cylinders;
+  std::array<SurfaceState, 3> cylinders;
   for (int i = 0; i < 3; ++i) {
     Eigen::Matrix<double, 3, 2> across;
     across << axes.col((i + 1) % 3), axes.col((i + 2) % 3);
@@ -143,7 +180,7 @@ std::vector<SurfaceState> algebraic_cylinders(const Samples& samples) {
     state.R.col(2) = side * z;
     state.R.col(1) = state.R.col(2).cross(state.R.col(0));
     state.k = {-side / radius, 0.0};
-    cylinders.push_back(state);
+    cylinders[static_cast<std::size_t>(i)] = state;
   }
   return cylinders;
 }
@@ -206,8 +243,7 @@ double quadric_residual(const Quadric& quadric, const Samples& samples, std::siz
   return (q.z() - a.dot(monomials(q.x(), q.y()))) * std::sqrt(weight_along(samples.cov[i], g_world));
 }
 
-std::vector<SurfaceState> starts(const Samples& samples, const SurfaceModel& model,
-                                 const SurfaceState& quadratic) {
+Starts starts(const Samples& samples, const SurfaceModel& model, const SurfaceState& quadratic) {
   const double mean_curvature = 0.5 * quadratic.k.sum();
   switch (model.kind) {
     case ModelKind::plane:
@@ -217,10 +253,8 @@ std::vector<SurfaceState> starts(const Samples& samples, const SurfaceModel& mod
     case ModelKind::circular_paraboloid:
       return {with_k(quadratic, mean_curvature)};
     case ModelKind::circular_cylinder: {
-      std::vector<SurfaceState> all = {with_k(quadratic, quadratic.k[1]),
-                                       with_k(quarter_turned(quadratic), quadratic.k[0])};
-      const std::vector<SurfaceState> closed = algebraic_cylinders(samples);
-      all.insert(all.end(), closed.begin(), closed.end());
+      Starts all = {with_k(quadratic, quadratic.k[1]), with_k(quarter_turned(quadratic), quadratic.k[0])};
+      for (const SurfaceState& closed : algebraic_cylinders(samples)) all.push_back(closed);
       return all;
     }
     case ModelKind::cylindric_paraboloid:

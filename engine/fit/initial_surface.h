@@ -2,6 +2,8 @@
 // Points count by their robust weight. Results are about the samples' origin.
 #pragma once
 
+#include <array>
+#include <initializer_list>
 #include <vector>
 
 #include "engine/fit/samples.h"
@@ -26,10 +28,26 @@ Quadric quadric_through(const Samples& samples, const SurfaceState& frame,
 // Signed residual of a sample against a quadric, in standard deviations (Sampson).
 double quadric_residual(const Quadric& quadric, const Samples& samples, std::size_t i);
 
+// A few states, without a heap.
+class Starts {
+ public:
+  Starts() = default;
+  Starts(std::initializer_list<SurfaceState> states) {
+    for (const SurfaceState& state : states) push_back(state);
+  }
+  void push_back(const SurfaceState& state) { states_[size_++] = state; }
+  std::size_t size() const { return size_; }
+  const SurfaceState* begin() const { return states_.data(); }
+  const SurfaceState* end() const { return states_.data() + size_; }
+
+ private:
+  std::array<SurfaceState, 5> states_;
+  std::size_t size_ = 0;
+};
+
 // The states from which a model's fit is tried; the lower exact cost is kept. Both axes for the cylindric
 // ones (method M1), algebraic spheres and cylinders beside the height field for those.
-std::vector<SurfaceState> starts(const Samples& samples, const SurfaceModel& model,
-                                 const SurfaceState& quadratic);
+Starts starts(const Samples& samples, const SurfaceModel& model, const SurfaceState& quadratic);
 
 // Frame with z along `normal`, turned from R by the least rotation.
 Matrix3d turned_to(const Matrix3d& R, const Vector3d& normal);

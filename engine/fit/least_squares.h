@@ -24,6 +24,7 @@ struct NormalEquations {
   double cost = 0.0;
   StepMatrix A;
   StepVector b;
+  double chi2 = 0.0;  // of the data alone, where the cost holds a loss or a prior too; carried along
 };
 
 struct LeastSquaresOptions {

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/fit/sample_rows.h"
+
 namespace patchlab {
 namespace {
 
@@ -31,24 +33,44 @@ Motion motion(const Residual& r, const SurfaceFit& fit, const Vector3d& q, const
   return m;
 }
 
-using JointColumns = Eigen::Matrix<double, joint_size, 3>;
-using PlaneColumns = Eigen::Matrix<double, plane_size, 3>;
+using PlaneVector = Eigen::Matrix<double, plane_size, 1>;
 
 // The chart rows that a plane frees: w_x, w_y, t_z.
 constexpr std::array<int, plane_size> plane_rows = {2, 3, 7};
 
-// F_p F_q' of the plane's fit for sample i, its columns in the axes of `R`.
-PlaneColumns plane_columns(const SurfaceFit* plane, const Samples& samples, std::size_t i,
-                           const Matrix3d& R) {
-  if (plane == nullptr) return PlaneColumns::Zero();
-  const Residual r = residual(Distance::paper, plane->model, plane->state, samples.q[i], samples.cov[i]);
-  const Vector3d F_q = R.transpose() * (plane->state.R * r.F_q);
-  PlaneColumns columns;
-  for (int row = 0; row < plane_size; ++row) {
-    columns.row(row) = r.F_p[plane_rows[static_cast<std::size_t>(row)]] * F_q.transpose();
-  }
-  return columns;
+// How one sample moves a fit: a b', b in the axes of the surface.
+template <class Vector>
+struct Influence {
+  Vector a;
+  Vector3d b;
+};
+
+Influence<PlaneVector> influence_on_plane(const SurfaceFit& plane, const Samples& samples, std::size_t i,
+                                          const Matrix3d& R) {
+  const Residual r = residual(Distance::paper, plane.model, plane.state, samples.q[i], samples.cov[i]);
+  PlaneVector F_p;
+  for (int row = 0; row < plane_size; ++row) F_p[row] = r.F_p[plane_rows[static_cast<std::size_t>(row)]];
+  return {F_p, R.transpose() * (plane.state.R * r.F_q)};
 }
+
+// B S B' summed over the samples, below the diagonal: what the fits and the moments take from the noise.
+struct JointSums {
+  JointMatrix G = JointMatrix::Zero();
+
+  void add_moments(const Matrix93& B, const Matrix93& BS) {
+    G.bottomRightCorner<moments_size, moments_size>() += BS.lazyProduct(B.transpose());
+  }
+  template <int at, class Vector>
+  void add_fit(const Influence<Vector>& fit, const Matrix93& BS, const Vector3d& Sb) {
+    constexpr int size = Vector::RowsAtCompileTime;
+    G.block<size, size>(at, at).noalias() += (fit.b.dot(Sb) * fit.a) * fit.a.transpose();
+    G.block<moments_size, size>(moments_at, at).noalias() += MomentVector(BS * fit.b) * fit.a.transpose();
+  }
+  void add_both(const Influence<ChartVector>& fit, const Influence<PlaneVector>& plane, const Vector3d& Sb) {
+    G.block<plane_size, chart_size>(plane_at, 0).noalias() += (plane.b.dot(Sb) * plane.a) * fit.a.transpose();
+  }
+  JointMatrix whole() const { return G.selfadjointView<Eigen::Lower>(); }
+};
 
 // J_prior' J_prior (method M9): two columns of unit variance.
 ChartMatrix prior_information(const SurfaceFit& fit) {
@@ -106,25 +128,31 @@ JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, cons
                              const JointOptions& options) {
   const MomentVector mean = moments(feet.x, feet.weight);
   Matrix98 M = Matrix98::Zero();
-  JointMatrix G = JointMatrix::Zero();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples.robust[i] == 0.0) continue;
+  JointSums sums;
+  const SampleRows rows(samples, fit.model, fit.state, options.distance);
+  for_each_residual(rows, [&](std::size_t i, const Residual& r) {
+    if (samples.robust[i] == 0.0) return;
     const Vector3d q = to_local(fit.state, samples.q[i]);
     const Matrix3d S = fit.state.R.transpose() * samples.cov[i] * fit.state.R;
-    const Residual r = residual(options.distance, fit.model, fit.state, samples.q[i], samples.cov[i]);
     const Motion m = motion(r, fit, q, S, options.projection);
     const Matrix93 phi_x = feet.weight[i] * J_monomials(feet.x[i]);
-    M.noalias() += phi_x * m.X_chart;
-    JointColumns B;
-    B.topRows<chart_size>() = std::sqrt(samples.robust[i]) * samples.bends[i] * r.F_p * r.F_q.transpose();
-    B.middleRows<plane_size>(plane_at) = plane_columns(options.plane, samples, i, fit.state.R);
-    B.bottomRows<moments_size>() = phi_x * m.X_q;
-    G.noalias() += (B * S) * B.transpose();
+    M += phi_x.lazyProduct(m.X_chart);
+    const Matrix93 B = phi_x * m.X_q, BS = B * S;
+    sums.add_moments(B, BS);
+    const Influence<ChartVector> on_fit{std::sqrt(samples.robust[i]) * samples.bends[i] * r.F_p, r.F_q};
+    const Vector3d Sb = S * on_fit.b;
+    sums.add_fit<0>(on_fit, BS, Sb);
+    if (options.plane != nullptr) {
+      const auto on_plane = influence_on_plane(*options.plane, samples, i, fit.state.R);
+      sums.add_fit<plane_at>(on_plane, BS, S * on_plane.b);
+      sums.add_both(on_fit, on_plane, Sb);
+    }
     if (options.sampling) {
       const MomentVector away = feet.weight[i] * (monomials(feet.x[i]) - mean);
-      G.bottomRightCorner<moments_size, moments_size>() += away * away.transpose();
+      sums.G.bottomRightCorner<moments_size, moments_size>().noalias() += away * away.transpose();
     }
-  }
+  });
+  JointMatrix G = sums.whole();
   if (fit.prior) G.topLeftCorner<chart_size, chart_size>() += prior_information(fit);
   const JointMatrix T = solve_all(fit, options.plane, M);
   const JointMatrix joint = T * G * T.transpose();

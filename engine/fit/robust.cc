@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/base/random.h"
+#include "engine/fit/sample_rows.h"
 
 namespace patchlab {
 namespace {
@@ -83,11 +84,10 @@ bool keep_quadric_inliers(Samples& samples, std::uint64_t seed) {
 double residual_scale(const Samples& samples, const SurfaceFit& fit) {
   constexpr double median_of_normal = 0.6745;
   std::vector<double> sizes;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples.robust[i] == 0.0 || samples.bends[i] == 0) continue;
-    sizes.push_back(
-        std::abs(residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]).F));
-  }
+  for_each_residual(SampleRows(samples, fit.model, fit.state, Distance::exact),
+                    [&](std::size_t i, const Residual& r) {
+                      if (samples.robust[i] != 0.0 && samples.bends[i] != 0) sizes.push_back(std::abs(r.F));
+                    });
   return sizes.empty() ? 1.0 : median(sizes) / median_of_normal;
 }
 
@@ -98,10 +98,11 @@ double robust_scale(const Samples& samples, const SurfaceFit& fit) {
 }
 
 void flag_outliers(Samples& samples, const SurfaceFit& fit, double scale) {
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double F = residual(Distance::exact, fit.model, fit.state, samples.q[i], samples.cov[i]).F / scale;
-    samples.robust[i] = std::abs(F) > flag_limit ? 0.0 : tukey_weight(F);
-  }
+  for_each_residual(SampleRows(samples, fit.model, fit.state, Distance::exact),
+                    [&](std::size_t i, const Residual& r) {
+                      const double F = r.F / scale;
+                      samples.robust[i] = std::abs(F) > flag_limit ? 0.0 : tukey_weight(F);
+                    });
 }
 
 }  // namespace patchlab

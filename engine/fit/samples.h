@@ -8,6 +8,7 @@
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
 #include "engine/fit/observation.h"
+#include "engine/fit/rows.h"
 
 namespace patchlab {
 
@@ -15,6 +16,7 @@ struct Samples {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // m: mean of the points, added back at the end
   std::vector<Eigen::Vector3d> q;                    // m, about origin
   std::vector<Eigen::Matrix3d> cov;                  // m^2, as measured or re-evaluated at the foot points
+  std::vector<SampleBlock> blocks;                   // q and cov again, as the kernels read them
   std::size_t semidefinite = 0;                      // covariances without extent in some direction
   std::vector<double> robust;                        // Tukey weight in [0, 1]; 1 where nothing is doubted
   std::vector<std::uint8_t> bends;                   // 0 where a point counts for the outline alone (M13)
@@ -22,6 +24,7 @@ struct Samples {
   Progress progress = {};  // asked in every step of a fit: once it says stop, fits end where they are
 
   std::size_t size() const { return q.size(); }
+  void set_cov(std::size_t i, const Eigen::Matrix3d& cov_i);
   Eigen::Vector3d viewpoint(std::size_t i) const {  // m, about origin
     const Observations& o = *observations;
     return (o.viewpoints.empty() ? o.viewpoint : o.viewpoints[i]) - origin;

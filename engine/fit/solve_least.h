@@ -1,11 +1,11 @@
 // Normal equations that may leave some direction open.
 #pragma once
 
-#include <Eigen/Core>
+#include "engine/fit/least_squares.h"
 
 namespace patchlab {
 
 // The least x with A x = b. Precondition: A symmetric and positive semidefinite, b in its range.
-Eigen::VectorXd solve_least(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+StepVector solve_least(const StepMatrix& A, const StepVector& b);
 
 }  // namespace patchlab

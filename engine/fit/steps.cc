@@ -10,6 +10,7 @@
 #include "engine/fit/plane_outline.h"
 #include "engine/fit/robust.h"
 #include "engine/fit/robust_fits.h"
+#include "engine/fit/sample_rows.h"
 #include "engine/fit/validate.h"
 
 namespace patchlab {
@@ -269,9 +270,8 @@ Result<FitResult> conclude(Workbench& work) {
   report.iterations = work.surface.iterations;
   report.converged = work.surface.converged;
   const Distance distance = by_paper(work) ? Distance::paper : Distance::exact;
-  for (std::size_t i = 0; i < work.samples.size(); ++i) {
-    const Residual r =
-        residual(distance, work.surface.model, work.surface.state, work.samples.q[i], work.samples.cov[i]);
+  const SampleRows rows(work.samples, work.surface.model, work.surface.state, distance);
+  for_each_residual(rows, [&](std::size_t i, const Residual& r) {
     report.residuals.push_back(r.F);
     if (work.samples.robust[i] == 0.0) {
       report.outliers.push_back(static_cast<std::uint32_t>(i));
@@ -280,7 +280,7 @@ Result<FitResult> conclude(Workbench& work) {
     } else {
       report.chi2 += r.F * r.F;
     }
-  }
+  });
   report.points = work.samples.size() - report.outliers.size();
   report.dof = static_cast<int>(report.points - report.edge_points) - work.surface.model.effective_parameters;
   validate_fit(work.samples, work.surface, work.feet, result.patch, work.options, report);

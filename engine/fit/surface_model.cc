@@ -86,4 +86,10 @@ ChartMatrix spread(const SurfaceModel& model, const StepMatrix& free) {
   return full;
 }
 
+StepVector reduced(const SurfaceModel& model, const ChartVector& full) {
+  StepVector free(model.free_size);
+  for (int i = 0; i < model.free_size; ++i) free[i] = full[model.free[static_cast<std::size_t>(i)]];
+  return free;
+}
+
 }  // namespace patchlab

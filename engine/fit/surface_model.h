@@ -59,5 +59,7 @@ SurfaceState retract(const SurfaceState& state, const ChartVector& step);
 // A full chart vector from the free entries (zero elsewhere), and the covariance likewise.
 ChartVector spread(const SurfaceModel& model, const StepVector& free);
 ChartMatrix spread(const SurfaceModel& model, const StepMatrix& free);
+// The free entries of a full chart vector.
+StepVector reduced(const SurfaceModel& model, const ChartVector& full);
 
 }  // namespace patchlab

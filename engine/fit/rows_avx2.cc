@@ -1,0 +1,14 @@
+#include "engine/fit/rows_kernel.h"
+
+namespace patchlab {
+
+const RowKernel* avx2_rows() {
+#ifdef __AVX2__
+  static constexpr RowKernel kernel = {"AVX2", paper_rows, exact_rows, add_rows};
+  return __builtin_cpu_supports("avx2") ? &kernel : nullptr;
+#else
+  return nullptr;
+#endif
+}
+
+}  // namespace patchlab

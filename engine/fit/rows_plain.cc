@@ -1,0 +1,10 @@
+#include "engine/fit/rows_kernel.h"
+
+namespace patchlab {
+
+const RowKernel& plain_rows() {
+  static constexpr RowKernel kernel = {"plain", paper_rows, exact_rows, add_rows};
+  return kernel;
+}
+
+}  // namespace patchlab

@@ -1,0 +1,192 @@
+// fit_bench [--readme FILE] [Google Benchmark's options]: fits of the engine, of Ceres and of Eigen,
+// interleaved, in CPU time of one thread, nine repetitions each; the arithmetic of the same fits in the same
+// run. --readme writes the table.
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <thread>
+
+#include "engine/fit/fit_model.h"
+#include "engine/fit/fit_patch.h"
+#include "tests/bench/fit/arithmetic.h"
+#include "tests/bench/fit/height_field.h"
+#include "tests/bench/fit/patches.h"
+#include "tests/bench/fit/solvers.h"
+#include "tests/bench/fit/table.h"
+
+namespace patchlab::bench {
+namespace {
+
+// Patches of one size, with what all their fits share.
+struct Set {
+  std::size_t points;
+  std::vector<Observations> observations;
+  std::vector<Samples> samples;
+  std::vector<SurfaceState> starts;
+  std::vector<Objective> calibrated;
+  double evaluations = 0.0;  // mean, of ours
+};
+
+Set make_set(std::size_t points, int draws) {
+  Set set{points, patches(points, draws), {}, {}, {}, 0.0};
+  set.samples = samples_of(set.observations);
+  for (Samples& samples : set.samples) {
+    set.starts.push_back(quadratic_start(samples));
+    const SurfaceModel held = fixed_centre(surface_model(ModelKind::paraboloid));
+    const SurfaceFit fixed = fit_surface(samples, held, set.starts.back(), {});
+    set.calibrated.push_back({Distance::exact, vertex_start(samples, fixed).prior});
+    set.evaluations += ours(samples, {}).evaluations / static_cast<double>(draws);
+  }
+  return set;
+}
+
+// `one` of every patch of the set.
+template <class One>
+void add(const std::string& name, const Set& set, One one, int threads = 1) {
+  const auto all = [&set, one](benchmark::State& state) {
+    for (auto _ : state) {
+      for (std::size_t i = 0; i < set.samples.size(); ++i) benchmark::DoNotOptimize(one(i));
+    }
+    state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * set.samples.size()));
+  };
+  auto* benchmark = benchmark::RegisterBenchmark((name + "/" + std::to_string(set.points)).c_str(), all);
+  benchmark->Unit(benchmark::kMicrosecond)
+      ->Repetitions(set.points > 2000 ? 5 : 9)
+      ->MinTime(set.points > 2000 ? 0.02 : 0.05)
+      ->Threads(threads);
+  if (threads > 1) {
+    benchmark->UseRealTime();
+  } else {
+    benchmark->MeasureProcessCPUTime();  // Ceres may call libraries that have threads of their own
+  }
+}
+
+FitResult whole(const Observations& observations, FitMethod method, SurfaceRequest surface) {
+  FitOptions options;
+  options.method = method;
+  options.surface = surface;
+  return *fit_patch(observations, options);
+}
+
+void add_all(const Set& set) {
+  const static Objective paper;
+  add("arithmetic", set, [&](std::size_t) {
+    return arithmetic(
+        static_cast<std::size_t>(flops_per_point * set.evaluations * static_cast<double>(set.points)));
+  });
+  add("ours", set, [&](std::size_t i) { return ours(set.samples[i], paper); });
+  add(
+      "ours, two threads", set, [&](std::size_t i) { return ours(set.samples[i], paper); }, 2);
+  add("ours exact", set, [&](std::size_t i) { return ours(set.samples[i], set.calibrated[i]); });
+  add("height field", set, [&](std::size_t i) { return height_field_fit(set.observations[i].points); });
+  const auto both = SurfaceRequest::elliptic_paraboloid;
+  add("whole paper", set, [&](std::size_t i) { return whole(set.observations[i], FitMethod::paper, both); });
+  add("whole calibrated", set,
+      [&](std::size_t i) { return whole(set.observations[i], FitMethod::calibrated, both); });
+  add("whole automatic", set, [&](std::size_t i) {
+    return whole(set.observations[i], FitMethod::calibrated, SurfaceRequest::automatic);
+  });
+  if (!has_ceres()) return;
+  const auto by_ceres = [&](const char* name, Ceres way, bool exact) {
+    add(name, set, [&set, way, exact](std::size_t i) {
+      return ceres(way, set.samples[i], exact ? set.calibrated[i] : Objective{}, set.starts[i]);
+    });
+  };
+  by_ceres("Ceres Cholesky", Ceres::normal_cholesky, false);
+  by_ceres("Ceres QR", Ceres::qr, false);
+  by_ceres("Ceres exact", Ceres::normal_cholesky, true);
+  if (set.points <= 1500) by_ceres("Ceres per point", Ceres::per_point, false);
+}
+
+// How far results lie from a tight optimum: chi-square relative, apex in its own standard deviations.
+void print_accuracy(const Set& set) {
+  double gap_ours = 0.0, gap_ceres = 0.0, log_det = 0.0;
+  const auto n = static_cast<double>(set.samples.size());
+  for (std::size_t i = 0; i < set.samples.size(); ++i) {
+    const Solved tight = ours(set.samples[i], {}, 1e-14), loose = ours(set.samples[i], {});
+    gap_ours += (loose.chi2 / tight.chi2 - 1.0) / n;
+    log_det += std::abs(loose.log_det - tight.log_det) / n;
+    if (has_ceres()) {
+      gap_ceres +=
+          (ceres(Ceres::normal_cholesky, set.samples[i], {}, set.starts[i]).chi2 / tight.chi2 - 1.0) / n;
+    }
+  }
+  std::printf(
+      "%zu points: %.1f evaluations; chi-square above a tight optimum: ours %.1e, Ceres %.1e; |log det| %.1e\n",
+      set.points, set.evaluations, gap_ours, gap_ceres, log_det);
+}
+
+// A row of the table: what was timed, and how many times the time of `beside` that is.
+struct Line {
+  const char* words;
+  const char* name;
+  const char* beside;
+};
+constexpr Line lines[] = {
+    {"surface and its covariance, the paper's objective", "ours", nullptr},
+    {"the same by Ceres: analytic rows, normal equations, `ceres::Covariance`", "Ceres Cholesky", "ours"},
+    {"the same by Ceres, QR", "Ceres QR", "ours"},
+    {"the same by Ceres, automatic derivatives, one residual a point", "Ceres per point", "ours"},
+    {"two at a time, on two threads, each", "ours, two threads", "ours"},
+    {"nothing but the arithmetic of its evaluations", "arithmetic", "ours"},
+    {"an unweighted height field by Eigen, no covariance", "height field", "ours"},
+    {"surface and its covariance, exact distance and prior (calibrated)", "ours exact", "ours"},
+    {"the same by Ceres", "Ceres exact", "ours exact"},
+    {"whole paper's fit: surface, bound, covariance of all, validation", "whole paper", "ours"},
+    {"whole calibrated fit, type named", "whole calibrated", "ours exact"},
+    {"whole calibrated fit, type chosen among seven", "whole automatic", "ours exact"},
+};
+
+std::string table(const Collector& times, const std::vector<Set>& sets) {
+  std::string text =
+      when_and_where() +
+      ". Medians of CPU time of interleaved repetitions, half of the middle half of them as ±; ×: times the "
+      "line that it is beside.\n\n| one fit |";
+  for (const Set& set : sets) text += " " + std::to_string(set.points) + " points |";
+  text += "\n|---|";
+  for (std::size_t i = 0; i < sets.size(); ++i) text += "---|";
+  for (const Line& line : lines) {
+    text += "\n| " + std::string(line.words) + " |";
+    for (const Set& set : sets) {
+      const std::string at = "/" + std::to_string(set.points);
+      const double us = times.median(line.name + at);
+      text += " " + duration(us, times.spread(line.name + at));
+      if (line.beside != nullptr) text += ratio(us, times.median(line.beside + at));
+      text += " |";
+    }
+  }
+  return text + "\n";
+}
+
+}  // namespace
+}  // namespace patchlab::bench
+
+int main(int argc, char** argv) {
+  using namespace patchlab::bench;
+  std::string readme;
+  std::vector<char*> arguments(argv, argv + argc);
+  char interleaved[] = "--benchmark_enable_random_interleaving=true";
+  arguments.insert(arguments.begin() + 1, interleaved);
+  for (std::size_t i = 1; i + 1 < arguments.size(); ++i) {
+    if (std::strcmp(arguments[i], "--readme") != 0) continue;
+    readme = arguments[i + 1];
+    arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i),
+                    arguments.begin() + static_cast<std::ptrdiff_t>(i + 2));
+    break;
+  }
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  std::vector<Set> sets;
+  for (const auto& [points, draws] : {std::pair{150, 16}, {1500, 16}, {15000, 6}}) {
+    sets.push_back(make_set(static_cast<std::size_t>(points), draws));
+  }
+  for (const Set& set : sets) {
+    print_accuracy(set);
+    add_all(set);
+  }
+  Collector times;
+  benchmark::RunSpecifiedBenchmarks(&times);
+  const std::string text = table(times, sets);
+  std::fputs(text.c_str(), stdout);
+  if (!readme.empty() && !write_between_marks(readme, text)) return 1;
+}

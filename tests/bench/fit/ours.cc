@@ -1,0 +1,21 @@
+#include <Eigen/LU>
+#include <cmath>
+
+#include "engine/fit/initial_surface.h"
+#include "tests/bench/fit/solvers.h"
+
+namespace patchlab::bench {
+
+SurfaceState quadratic_start(const Samples& samples) { return height_field(samples, initial_plane(samples)); }
+
+Solved ours(const Samples& samples, const Objective& objective, double relative_stop) {
+  SurfaceFitOptions options;
+  options.distance = objective.distance;
+  options.solver.stop = relative_stop * static_cast<double>(samples.size());
+  const SurfaceFit fit = fit_surface(samples, surface_model(ModelKind::paraboloid), quadratic_start(samples),
+                                     options, objective.prior);
+  const double log_det = std::log(chart_covariance(fit).determinant());
+  return {fit.cost, log_det, fit.state.c, fit.iterations + 1};
+}
+
+}  // namespace patchlab::bench

@@ -1,0 +1,33 @@
+// One fit each way: the same samples, the same start, the same stop.
+#pragma once
+
+#include "engine/fit/fit_surface.h"
+
+namespace patchlab::bench {
+
+// An eight-parameter paraboloid.
+struct Solved {
+  double chi2 = 0.0;
+  double log_det = 0.0;  // of the covariance of the parameters, as each parametrises them
+  Eigen::Vector3d apex = Eigen::Vector3d::Zero();
+  int evaluations = 0;
+};
+
+// What both minimise: the paper's objective, Eq. (33), or the calibrated one with its prior.
+struct Objective {
+  Distance distance = Distance::paper;
+  std::optional<VertexPrior> prior;
+};
+
+inline constexpr double stop = 1e-6;  // relative change of chi-square
+
+// Ours, its own start included.
+SurfaceState quadratic_start(const Samples& samples);
+Solved ours(const Samples& samples, const Objective& objective, double relative_stop = stop);
+
+// Of Ceres, from `start`; its making is not timed.
+enum class Ceres { normal_cholesky, qr, per_point };
+bool has_ceres();
+Solved ceres(Ceres way, const Samples& samples, const Objective& objective, const SurfaceState& start);
+
+}  // namespace patchlab::bench
