@@ -174,12 +174,19 @@ void begin_search(const RowSurface& surface, const SampleBlock& samples, std::si
   }
 }
 
-// (I + l S K)^-1 by cofactors.
+// (I + l S K)^-1 by cofactors. Where the surface is flat along z, as planes and paraboloids are (k3.z = 0),
+// the matrix and its inverse have the last column of I.
+template <bool flat>
 struct Inverse {
   Vec row[3];
   Mask positive;  // all eigenvalues of the matrix are
 };
-Inverse invert(const RowSurface& surface, const Sym& S, const Lanes& l) {
+
+template <bool flat>
+Inverse<flat> invert(const RowSurface& surface, const Sym& S, const Lanes& l);
+
+template <>
+Inverse<false> invert<false>(const RowSurface& surface, const Sym& S, const Lanes& l) {
   const Vec m = {l * surface.k3[0], l * surface.k3[1], l * surface.k3[2]};
   const Lanes a00 = 1.0 + S.xx * m.x, a01 = S.xy * m.y, a02 = S.xz * m.z;
   const Lanes a10 = S.xy * m.x, a11 = 1.0 + S.yy * m.y, a12 = S.yz * m.z;
@@ -187,25 +194,46 @@ Inverse invert(const RowSurface& surface, const Sym& S, const Lanes& l) {
   const Lanes c00 = a11 * a22 - a12 * a21, c10 = a12 * a20 - a10 * a22, c20 = a10 * a21 - a11 * a20;
   const Lanes c11 = a00 * a22 - a02 * a20, c22 = a00 * a11 - a01 * a10;
   const Lanes determinant = a00 * c00 + a01 * c10 + a02 * c20, scale = 1.0 / determinant;
-  Inverse inverse;
+  Inverse<false> inverse;
   inverse.row[0] = scaled({c00, a02 * a21 - a01 * a22, a01 * a12 - a02 * a11}, scale);
   inverse.row[1] = scaled({c10, c11, a02 * a10 - a00 * a12}, scale);
   inverse.row[2] = scaled({c20, a01 * a20 - a00 * a21, c22}, scale);
   inverse.positive = (a00 + a11 + a22 > 0.0) & (c00 + c11 + c22 > 0.0) & (determinant > 0.0);
   return inverse;
 }
-Vec product(const Inverse& inverse, const Vec& v) {
+Vec product(const Inverse<false>& inverse, const Vec& v) {
   return {dot(inverse.row[0], v), dot(inverse.row[1], v), dot(inverse.row[2], v)};
 }
 
+template <>
+Inverse<true> invert<true>(const RowSurface& surface, const Sym& S, const Lanes& l) {
+  const Lanes m_x = l * surface.k3[0], m_y = l * surface.k3[1];
+  const Lanes a00 = 1.0 + S.xx * m_x, a01 = S.xy * m_y, a10 = S.xy * m_x, a11 = 1.0 + S.yy * m_y;
+  const Lanes a20 = S.xz * m_x, a21 = S.yz * m_y;
+  const Lanes determinant = a00 * a11 - a01 * a10, scale = 1.0 / determinant, zero = {};
+  const Lanes i00 = a11 * scale, i01 = -a01 * scale, i10 = -a10 * scale, i11 = a00 * scale;
+  Inverse<true> inverse;
+  inverse.row[0] = {i00, i01, zero};
+  inverse.row[1] = {i10, i11, zero};
+  inverse.row[2] = {-(a20 * i00 + a21 * i10), -(a20 * i01 + a21 * i11), zero + 1.0};
+  inverse.positive = (a00 + a11 > 0.0) & (determinant > 0.0);
+  return inverse;
+}
+Vec product(const Inverse<true>& inverse, const Vec& v) {
+  const Vec(&row)[3] = inverse.row;
+  return {row[0].x * v.x + row[0].y * v.y, row[1].x * v.x + row[1].y * v.y,
+          row[2].x * v.x + row[2].y * v.y + v.z};
+}
+
 // One Newton step of every multiplier (engine/patch/foot_point.cc). True where a further one is needed.
+template <bool flat>
 bool step_search(const RowSurface& surface, std::size_t count, FootSearch& search) {
   constexpr double near = 1e-7;  // in standard deviations: one more step squares it
   const Lanes nan = Lanes{} + __builtin_nan("");
   Mask far = {};
   for (std::size_t at = 0; at < count; at += width) {
     const Lanes l = lanes(search.l + at);
-    const Inverse inverse = invert(surface, load_cov(search, at), l);
+    const Inverse<flat> inverse = invert<flat>(surface, load_cov(search, at), l);
     const Vec Sn = product(inverse, load(search.Sn, at));  // at x
     const Vec x = difference(load(search.q, at), scaled(Sn, l)), n = half_gradient(surface, x);
     const Lanes f = implicit(x, n), half_slope = dot(n, product(inverse, Sn));
@@ -215,16 +243,18 @@ bool step_search(const RowSurface& surface, std::size_t count, FootSearch& searc
   return any(far);
 }
 
-bool exact_rows(const RowSurface& surface, const SampleBlock& samples, std::size_t count, RowBlock& block) {
+template <bool flat>
+bool exact_rows_of(const RowSurface& surface, const SampleBlock& samples, std::size_t count,
+                   RowBlock& block) {
   constexpr int most_steps = 8;
   FootSearch search;
   begin_search(surface, samples, count, search);
   Mask failed = {};
-  for (int step = 0; step < most_steps && step_search(surface, count, search); ++step) continue;
+  for (int step = 0; step < most_steps && step_search<flat>(surface, count, search); ++step) continue;
   for (std::size_t at = 0; at < count; at += width) {
     const Lanes l = lanes(search.l + at);
     const Sym S = load_cov(search, at);
-    const Inverse inverse = invert(surface, S, l);
+    const Inverse<flat> inverse = invert<flat>(surface, S, l);
     const Vec Sn = product(inverse, load(search.Sn, at));
     const Vec x = difference(load(search.q, at), scaled(Sn, l)), n = half_gradient(surface, x);
     const Lanes s = root(clamped(dot(n, Sn), trace(S), n)), m = 1.0 / s, half_m = 0.5 * m;
@@ -240,6 +270,12 @@ bool exact_rows(const RowSurface& surface, const SampleBlock& samples, std::size
     failed |= lanes(block.failed + at) != 0.0;
   }
   return !any(failed);
+}
+
+bool exact_rows(const RowSurface& surface, const SampleBlock& samples, std::size_t count, RowBlock& block) {
+  const bool flat = surface.k3[2] == 0.0;
+  return flat ? exact_rows_of<true>(surface, samples, count, block)
+              : exact_rows_of<false>(surface, samples, count, block);
 }
 
 // Products of three rows with three others, lane by lane; constant indices keep the sums in registers.
