@@ -110,6 +110,11 @@ Result<DepthImage> decode_pgm(std::string_view bytes, const std::string& name, c
     const auto high = static_cast<unsigned char>(rest[2 * i]),
                low = static_cast<unsigned char>(rest[2 * i + 1]);
     image.samples[i] = static_cast<std::uint16_t>(high << 8 | low);
+    if (image.samples[i] > *largest) {
+      return unreadable(name, "holds the value " + std::to_string(image.samples[i]) +
+                                  " where its header says that the largest is " + std::to_string(*largest) +
+                                  "; the file is damaged, or its bytes are swapped.");
+    }
   }
   return image;
 }

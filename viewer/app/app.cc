@@ -141,16 +141,21 @@ void App::show_new_document() {
   const Document& document = workbench_.document();
   if (!exists(document, state_.selected)) state_.selected = newest(document);
   platform_.set_title(document.scans.empty() ? "patchlab" : document.scans.back().name + " - patchlab");
-  make_shades();
-  ask_for_unit();
+  if (!workbench_.shows_glimpse()) {
+    make_shades();
+    ask_for_unit();
+  }
   if (!document.scans.empty() && camera_of_ != document.scans.back().scan) set_up_camera();
 }
 
 void App::set_up_camera() {
   const Document& document = workbench_.document();
   camera_of_ = document.scans.back().scan;
+  const std::optional<OrbitCamera> glimpsed_from = std::exchange(glimpsed_from_, std::nullopt);
+  if (glimpsed_from && stage_.camera != *glimpsed_from) return;  // turned by the user since
   view_of_sensor();
   stage_.settle();
+  if (workbench_.shows_glimpse()) glimpsed_from_ = stage_.camera;
   if (!journal_to_show_) return;
   if (const std::optional<ViewCamera> camera = last_lasso_camera(*journal_to_show_);
       camera && !document.patches.empty()) {
@@ -183,7 +188,7 @@ void App::ask_for_unit() {
 }
 
 void App::make_sigmas() {
-  if (state_.colours != PointColours::noise) return;
+  if (state_.colours != PointColours::noise || workbench_.shows_glimpse()) return;
   for (const ScanEntry& entry : workbench_.document().scans) {
     if (!entry.scan || stage_.has_sigmas(entry)) continue;
     stage_.set_sigmas(entry, nullptr);

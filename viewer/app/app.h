@@ -155,6 +155,7 @@ class App {
   std::optional<std::filesystem::path> journal_to_show_;  // its camera is taken when it is open
   std::string styled_for_;                                // theme and scale that ImGui's style was made for
   std::shared_ptr<const Scan> camera_of_;                 // what the camera was last set up for
+  std::optional<OrbitCamera> glimpsed_from_;              // as it was set up for a first look at a scan
   std::uint64_t seen_changes_ = 0;
   std::optional<float> wanted_scale_;  // of the interface, from the next frame on
   float chosen_scale_ = 0.0f;          // by the user; 0: none

@@ -1,9 +1,9 @@
 // The document side of the viewer: the session, the worker, and the fit that follows the lasso. Knows no
 // window, no GL and no ImGui; everything here is called on the thread of the user interface.
 //
-// What is on the screen is document(): the session's own, or a draft of it while a lasso is being drawn or a
-// fit is not yet kept. A draft is made by the same apply() as a replay, so keeping it changes nothing that
-// one sees.
+// What is on the screen is document(): the session's own, or a draft of it while a large scan is being read,
+// a lasso is being drawn or a fit is not yet kept. A draft is made by the same apply() as a replay, so
+// keeping it changes nothing that one sees.
 #pragma once
 
 #include <chrono>
@@ -84,6 +84,8 @@ class Workbench {
   std::optional<Busy> busy() const;
 
   const Document& document() const { return draft_ ? draft_->document : session_.document(); }
+  // Its newest scan is a first look at a file that is still being read.
+  bool shows_glimpse() const { return draft_ && draft_->glimpse; }
   const Session& session() const { return session_; }
   // The journal that the document comes from, also where it is only shown; empty where there is none.
   const std::filesystem::path& journal() const {
@@ -110,6 +112,7 @@ class Workbench {
     Document document;
     std::optional<Fit> fit;  // with its hash, ready to be recorded; none for a selection that has no fit
     bool keepable = false;   // the selection under it is recorded
+    bool glimpse = false;    // a few points stand for the newest scan, which is still being read
   };
   // What the worker makes of a selection and a fit.
   struct Outcome {
@@ -140,6 +143,8 @@ class Workbench {
   Result<Session> begin_session(const std::filesystem::path& file, const Progress& progress) const;
   void open_journal(const std::filesystem::path& file);
   void open_scan(const std::filesystem::path& file, const ScanWishes& wishes);
+  void read_whole(const std::string& words, const OpenScan& command);
+  void show_glimpse(const OpenScan& command, Scan scan);
   void record_scan(OpenScan command, Document after);
   void tell_of_earlier_work(const std::filesystem::path& scan);
   Result<void> begin_journal(const std::filesystem::path& scan);

@@ -1,4 +1,5 @@
 // The files of a workbench: scans and journals in, patches and journals out.
+#include "engine/io/glimpse.h"
 #include "engine/io/scan_size.h"
 #include "viewer/app/journal_file.h"
 #include "viewer/app/workbench.h"
@@ -66,15 +67,39 @@ void Workbench::open_scan(const std::filesystem::path& file, const ScanWishes& w
   command.unit = wishes.unit;
   command.intrinsics = wishes.intrinsics;
   command.depth_scale = wishes.depth_scale;
-  order(opening(file),
-        [this, command, before = session_.document()](const Progress& progress) -> Worker::Finish {
-          Command wanted = command;
-          auto after = std::make_shared<Result<Document>>(apply(before, wanted, with_progress(progress)));
-          return [this, wanted, after] {
-            if (!*after) return report(after->error());
-            record_scan(std::get<OpenScan>(wanted), std::move(**after));
-          };
-        });
+  const std::string words = opening(file);
+  order(words, [this, command, words](const Progress& progress) -> Worker::Finish {
+    auto first = std::make_shared<std::optional<Scan>>(glimpse_scan(command.file, {.unit = command.unit}));
+    if (!keep_going(progress, 0.0)) return {};
+    return [this, command, words, first] {
+      if (*first) show_glimpse(command, std::move(**first));
+      read_whole(words, command);
+    };
+  });
+}
+
+void Workbench::read_whole(const std::string& words, const OpenScan& command) {
+  order(words, [this, command, before = session_.document()](const Progress& progress) -> Worker::Finish {
+    Command wanted = command;
+    auto after = std::make_shared<Result<Document>>(apply(before, wanted, with_progress(progress)));
+    return [this, wanted, after] {
+      if (*after) return record_scan(std::get<OpenScan>(wanted), std::move(**after));
+      report(after->error());
+      if (!shows_glimpse()) return;
+      drop_draft();
+      refit_open_region();
+    };
+  });
+}
+
+// Of the scan that is being read, under the id that it will have; gone when all of it is there.
+void Workbench::show_glimpse(const OpenScan& command, Scan scan) {
+  drop_draft();
+  const std::string name = std::filesystem::path(command.file).filename().string() + ", opening";
+  const NoiseModel noise = default_noise_model(scan);
+  draft_ = Draft{session_.document(), std::nullopt, false, true};
+  draft_->document.scans.push_back(
+      {command.id, name, {}, std::make_shared<const Scan>(std::move(scan)), noise, true});
 }
 
 void Workbench::record_scan(OpenScan command, Document after) {

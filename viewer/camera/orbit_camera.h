@@ -19,6 +19,8 @@ struct OrbitCamera {
   double fov_y = 0.8;      // rad
   bool perspective = true;
 
+  bool operator==(const OrbitCamera&) const = default;
+
   // The eye moves to its right and upwards about the pivot, rad; elevation stops at the poles.
   void orbit(double right, double up_by);
   // The pivot's plane follows a drag of `pixels` (x right, y down) in a viewport of that height.

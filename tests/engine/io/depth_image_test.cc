@@ -95,6 +95,7 @@ TEST(DepthImage, PicturesOfAnotherKindAreRefused) {
 
 TEST(DepthImage, DamagedPicturesAreRefusedBeforeMemoryIsTaken) {
   EXPECT_THAT(depth_refusal(pgm("P5\n3 3\n65535\n")), HasSubstr("12 bytes cannot hold 3 x 3 depths"));
+  EXPECT_THAT(depth_refusal(pgm("P5\n3 2\n4095\n")), HasSubstr("holds the value 65535"));
   EXPECT_THAT(depth_refusal(pgm("P5\n99999 99999\n65535\n")), HasSubstr("are no sides of a depth image"));
   EXPECT_THAT(depth_refusal("P5\n3\n"), HasSubstr("one is missing"));
   const std::string whole = png(16, PNG_COLOR_TYPE_GRAY);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/file.h"
 #include "tests/support/file_size_limit.h"
 #include "viewer/app/journal_file.h"
 
@@ -55,6 +56,50 @@ TEST_F(WorkbenchTest, AFileThatCannotBeReadIsToldAndTheSessionStays) {
   ASSERT_EQ(errors_.size(), 1u);
   EXPECT_NE(errors_[0].find("missing.pcd"), std::string::npos);
   EXPECT_EQ(kept().scans.size(), 1u);
+}
+
+// A file that takes a while: a wall as a table, with `end` after it.
+std::filesystem::path large_table(const std::filesystem::path& folder, const std::string& end) {
+  constexpr int side = 1000;
+  std::string rows = "x,y,z\n";
+  for (int i = 0; i < side * side; ++i) {
+    rows += "0." + std::to_string(side + i % side) + ",0." + std::to_string(side + i / side) + ",1.125\n";
+  }
+  const std::filesystem::path file = folder / "large.csv";
+  EXPECT_TRUE(write_file(file, rows + end));
+  return file;
+}
+
+TEST_F(WorkbenchTest, ALargeScanIsSeenBeforeItIsRead) {
+  bench_.open(large_table(folder_.path(), {}));
+  while (bench_.document().scans.size() < 2) {
+    bench_.deliver();
+    std::this_thread::yield();
+  }
+  EXPECT_TRUE(bench_.shows_glimpse());
+  EXPECT_EQ(kept().scans.size(), 1u);
+  EXPECT_EQ(bench_.document().scans[1].id, "scan-2");
+  EXPECT_LT(bench_.document().scans[1].scan->size(), 200'000u);
+  finish();
+  EXPECT_FALSE(bench_.shows_glimpse());
+  ASSERT_EQ(kept().scans.size(), 2u);
+  EXPECT_EQ(kept().scans[1].scan->size(), 1'000'000u);
+  EXPECT_EQ(kept().scans[1].name, "large.csv");
+}
+
+TEST_F(WorkbenchTest, AFirstLookIsTakenBackWhereTheFileTurnsOutToBeDamaged) {
+  bench_.open(large_table(folder_.path(), "0.5,nonsense,1\n"));
+  bool seen = false;
+  while (!bench_.idle()) {
+    bench_.deliver();
+    seen = seen || bench_.shows_glimpse();
+    std::this_thread::yield();
+  }
+  finish();
+  EXPECT_TRUE(seen);
+  ASSERT_EQ(errors_.size(), 1u);
+  EXPECT_NE(errors_[0].find("nonsense"), std::string::npos) << errors_[0];
+  EXPECT_EQ(bench_.document().scans.size(), 1u);
 }
 
 TEST_F(WorkbenchTest, ThePatchesAreExportedAndTheJournalIsCopiedWithItsScanStillFound) {
