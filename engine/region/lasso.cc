@@ -1,12 +1,38 @@
 #include "engine/region/lasso.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
+#include "engine/region/cells_of_points.h"
 #include "engine/region/polygon_mask.h"
 #include "engine/region/projector.h"
 
 namespace patchlab {
+namespace {
+
+constexpr std::size_t block = 1024;  // points at a time
+
+// Of a block of points: those whose cell says inside, and those it leaves open that are.
+template <class IsInside>
+void add_block(const Scan& scan, const CellCamera& camera, const PolygonMask::Cell* grid, std::size_t first,
+               const IsInside& is_inside, std::vector<std::uint32_t>& selected) {
+  const std::size_t count = std::min(block, scan.size() - first);
+  std::array<std::int32_t, block> cells;
+  std::array<std::uint32_t, block> candidates;
+  cells_of_points(camera, scan.positions[first].data(), count, cells.data());
+  std::size_t found = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    candidates[found] = i;
+    found += grid[cells[i]] != PolygonMask::outside;
+  }
+  for (std::size_t k = 0; k < found; ++k) {
+    const std::uint32_t i = candidates[k], id = static_cast<std::uint32_t>(first) + i;
+    if (grid[cells[i]] == PolygonMask::inside || is_inside(id)) selected.push_back(id);
+  }
+}
+
+}  // namespace
 
 Projected project(const ViewCamera& camera, const Eigen::Vector3d& point) { return Projector(camera)(point); }
 
@@ -20,11 +46,21 @@ std::vector<std::uint32_t> select_lasso(const Scan& scan, const ViewCamera& came
   if (contour.size() < 3) return selected;
   const PolygonMask mask(contour);
   const Projector project_point(camera);
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!scan.finite[i]) continue;
-    const Projected pixel = project_point(scan.point(i));
-    const bool in = pixel.depth > camera.near_plane && mask.contains(pixel.x, pixel.y);
-    if (in) selected.push_back(static_cast<std::uint32_t>(i));
+  const auto is_inside = [&](std::uint32_t id) {
+    if (!scan.finite[id]) return false;
+    const Projected pixel = project_point(scan.point(id));
+    return pixel.depth > camera.near_plane && mask.contains(pixel.x, pixel.y);
+  };
+  const PolygonMask::Grid grid = mask.grid();
+  if (grid.rows == 0) {
+    for (std::uint32_t id = 0; id < scan.size(); ++id) {
+      if (is_inside(id)) selected.push_back(id);
+    }
+    return selected;
+  }
+  const CellCamera cells = cell_camera(camera, scan.origin, grid);
+  for (std::size_t first = 0; first < scan.size(); first += block) {
+    add_block(scan, cells, grid.cells, first, is_inside, selected);
   }
   return selected;
 }

@@ -9,7 +9,6 @@ namespace {
 constexpr double kMostCells = 2048;             // a side
 constexpr std::size_t kMostRowEdges = 1 << 20;  // in all rows together
 constexpr double kLargestCoordinate = 1 << 24;  // px: up to here rounding is small against the margin
-constexpr double kMargin = 1.0 / 16.0;          // of a cell: far more than the rounding of a crossing
 
 }  // namespace
 
@@ -77,7 +76,7 @@ PolygonMask::Span PolygonMask::cells_between(double v0, double v1, double origin
     return std::clamp(static_cast<std::ptrdiff_t>(std::floor((value - origin) / cell_)), std::ptrdiff_t{0},
                       count - 1);
   };
-  return {index(std::min(v0, v1) - kMargin * cell_), index(std::max(v0, v1) + kMargin * cell_)};
+  return {index(std::min(v0, v1) - margin * cell_), index(std::max(v0, v1) + margin * cell_)};
 }
 
 PolygonMask::Span PolygonMask::rows_of(const PolygonEdge& edge) const {
@@ -93,7 +92,7 @@ PolygonMask::Span PolygonMask::columns_of(const PolygonEdge& edge, std::ptrdiff_
     return edge.ax + (edge.bx - edge.ax) * std::clamp((y - edge.ay) / rise, 0.0, 1.0);
   };
   const auto side = static_cast<double>(row);
-  return cells_between(x_at(side - kMargin), x_at(side + 1.0 + kMargin), low_.x(), columns_);
+  return cells_between(x_at(side - margin), x_at(side + 1.0 + margin), low_.x(), columns_);
 }
 
 void PolygonMask::bucket_edges() {
@@ -112,7 +111,8 @@ void PolygonMask::bucket_edges() {
 }
 
 void PolygonMask::mark_edge_cells() {
-  cells_.assign(static_cast<std::size_t>(rows_ * columns_), outside);
+  cells_.assign(static_cast<std::size_t>(rows_ * columns_) + 2, outside);
+  cells_.back() = on_edge;
   for (std::ptrdiff_t r = 0; r < rows_; ++r) {
     Cell* const row = cells_.data() + r * columns_;
     for (const PolygonEdge& edge : edges_of(r)) {

@@ -27,13 +27,25 @@ bool inside_polygon(std::span<const PolygonEdge> edges, double x, double y);
 
 class PolygonMask {
  public:
+  enum Cell : std::uint8_t { outside, inside, on_edge };
+  // No edge is within this of a cell that is not on_edge, in cells: far more than the rounding of a crossing.
+  static constexpr double margin = 1.0 / 16.0;
+
   explicit PolygonMask(const std::vector<Eigen::Vector2d>& contour);
 
   // Exactly inside_polygon(contour, x, y) of engine/region/lasso.h, for any x and y.
   bool contains(double x, double y) const;
 
+  // For who looks many cells up. Around the polygon at least a pixel is outside.
+  struct Grid {
+    Eigen::Vector2d low;           // its corner, px
+    double cells_a_pixel;          // a power of two
+    std::ptrdiff_t columns, rows;  // 0: no grid, every point needs contains()
+    const Cell* cells;             // row by row, and after the last one outside and one on_edge
+  };
+  Grid grid() const { return {low_, cells_a_pixel_, columns_, rows_, cells_.data()}; }
+
  private:
-  enum Cell : std::uint8_t { outside, inside, on_edge };
   struct Span {
     std::ptrdiff_t first, last;  // inclusive
   };
@@ -52,7 +64,7 @@ class PolygonMask {
   double cell_ = 1.0;                              // side of a cell, px: a power of two
   double cells_a_pixel_ = 1.0;                     // 1 / cell_, exact
   std::ptrdiff_t columns_ = 0, rows_ = 0;          // 0: no grid, every point gets the exact test
-  std::vector<Cell> cells_;                        // row by row
+  std::vector<Cell> cells_;                        // as Grid has them
   std::vector<PolygonEdge> row_edges_;             // those of row r: from row_start_[r] to row_start_[r + 1]
   std::vector<std::size_t> row_start_;
 };

@@ -25,6 +25,16 @@ class Projector {
     return {centre_.x() + scale * q_view.x(), centre_.y() - scale * q_view.y(), depth};
   }
 
+  // A point q about `origin` as x right, y down, depth in the frame of the view: this times (q, 1).
+  Eigen::Matrix<double, 3, 4> view_from(const Eigen::Vector3d& origin) const {
+    Eigen::Matrix<double, 3, 4> view;
+    view << view_from_world_, view_from_world_ * (origin - position_);
+    view.bottomRows<2>() *= -1.0;
+    return view;
+  }
+  const Eigen::Vector2d& centre() const { return centre_; }  // px
+  double pixels() const { return pixels_; }  // at unit depth (perspective), a metre (orthographic)
+
   // What a pixel covers across the view at a depth, m.
   double footprint(double depth) const { return perspective_ ? depth / pixels_ : 1.0 / pixels_; }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/base/random.h"
+#include "engine/region/cells_of_points.h"
 #include "engine/region/polygon_mask.h"
 
 namespace patchlab {
@@ -255,6 +256,64 @@ TEST(SelectLasso, EqualsTheExactTestOfEveryProjectedPoint) {
     }
     EXPECT_GT(expected.size(), 3'000u);
     EXPECT_EQ(select_lasso(scan, camera, contour), expected);
+  }
+}
+
+std::vector<std::uint32_t> tested_one_by_one(const Scan& scan, const ViewCamera& camera,
+                                             const Contour& contour) {
+  std::vector<std::uint32_t> inside;
+  for (std::uint32_t i = 0; i < scan.size(); ++i) {
+    const Projected pixel = project(camera, scan.point(i));
+    const bool in =
+        scan.finite[i] && pixel.depth > camera.near_plane && inside_polygon(contour, pixel.x, pixel.y);
+    if (in) inside.push_back(i);
+  }
+  return inside;
+}
+
+// From afar and from within, about far origins, with points that are not numbers or out of all bounds.
+TEST(SelectLasso, EqualsTheExactTestFromAnyCamera) {
+  Random random(5);
+  std::vector<Eigen::Vector3f> positions = {
+      {1e30F, 1, -1}, {-3e38F, 3e38F, -3e38F}, {0, 0, -1e30F}, {kNaN, 0, 0}, {0, 0, kNaN}, {1e-30F, 0, -1}};
+  for (int i = 0; i < 20'000; ++i) positions.push_back(random.normal3().cast<float>());
+  Scan scan = scan_of(positions);
+  for (const double far : {0.0, 5e6}) {
+    for (const double distance : {0.0, 0.02, 2.5, 4e3}) {
+      for (const bool perspective : {true, false}) {
+        scan.origin = Eigen::Vector3d(far, -far, far);
+        ViewCamera camera;
+        camera.position = scan.origin + Eigen::Vector3d(0.1, 0.2, distance);
+        camera.perspective = perspective;
+        camera.fov_y = distance > 1e3 ? 1e-3 : 0.8;
+        camera.height = distance > 1e3 ? 0.01 : 3.0;
+        const Contour contour = random_contour(random, 40, -200.0, 1500.0);
+        EXPECT_EQ(select_lasso(scan, camera, contour), tested_one_by_one(scan, camera, contour))
+            << far << " " << distance << " " << perspective;
+      }
+    }
+  }
+}
+
+TEST(CellsOfPoints, AreSureOfNearlyAllAndTheSameOnAnyProcessor) {
+  Random random(6);
+  constexpr std::size_t points = 50'000;
+  std::vector<float> xyz;
+  for (std::size_t i = 0; i < points; ++i) {
+    const Eigen::Vector3f q = random.normal3().cast<float>();
+    xyz.insert(xyz.end(), {q.x(), q.y(), q.z() - 5.0F});
+  }
+  const PolygonMask mask(circle({640, 400}, 250, 200));
+  const PolygonMask::Grid grid = mask.grid();
+  const CellCamera camera = cell_camera(ViewCamera{}, Eigen::Vector3d::Zero(), grid);
+  std::vector<std::int32_t> fast(points), plain(points);
+  cells_of_points(camera, xyz.data(), points, fast.data());
+  cells_of_points_plain(camera, xyz.data(), points, plain.data());
+  const auto unsure = static_cast<std::int32_t>(grid.columns * grid.rows + 1);
+  EXPECT_LT(std::count(fast.begin(), fast.end(), unsure), 50);
+  for (std::size_t i = 0; i < points; ++i) {
+    const PolygonMask::Cell a = grid.cells[fast[i]], b = grid.cells[plain[i]];
+    EXPECT_TRUE(a == b || a == PolygonMask::on_edge || b == PolygonMask::on_edge) << i;
   }
 }
 
