@@ -17,13 +17,15 @@ using Columns = std::span<const Column>;
 
 // Of a point in memory: its position, then what of it is kept besides and while it is read.
 constexpr std::uint64_t position_bytes = 13, double_bytes = 24, colour_bytes = 27, label_bytes = 12,
-                        viewpoint_bytes = 36, covariance_bytes = 72;
+                        intensity_bytes = 12, viewpoint_bytes = 36, covariance_bytes = 72;
 
 constexpr Names3 coordinate_names = {"x", "y", "z"};
 constexpr Names3 viewpoint_names = {"vp_x", "vp_y", "vp_z"};
 constexpr Names3 colour_names[] = {{"red", "green", "blue"}, {"r", "g", "b"}};
 constexpr std::array<std::string_view, 2> packed_colour_names = {"rgb", "rgba"};
 constexpr std::array<std::string_view, 1> label_name = {"label"};
+constexpr std::array<std::string_view, 5> intensity_names = {"intensity", "reflectivity", "reflectance",
+                                                             "scalar_intensity", "scalar_Intensity"};
 
 Points gather3(const std::array<const Column*, 3>& xyz, std::size_t points) {
   Points out(points);
@@ -146,6 +148,21 @@ void fill_labels(Scan& scan, Columns columns, std::size_t points) {
                          std::to_string(dropped) + " of them.");
 }
 
+void fill_intensities(Scan& scan, Columns columns, std::size_t points) {
+  for (const Column* const column : find_columns(columns, intensity_names)) {
+    if (column == nullptr) continue;
+    const std::vector<double> found = values(*column, points);
+    scan.intensities.assign(found.begin(), found.end());
+    return;
+  }
+}
+
+void fill_what_is_beside(Scan& scan, Columns columns, std::size_t points) {
+  fill_colours(scan, columns, points);
+  fill_labels(scan, columns, points);
+  fill_intensities(scan, columns, points);
+}
+
 bool has_any(Columns columns, std::span<const std::string_view> names) {
   return std::ranges::any_of(names,
                              [&](std::string_view name) { return find_column(columns, name) != nullptr; });
@@ -158,6 +175,7 @@ std::uint64_t bytes_a_point(Columns columns, bool plain_floats) {
                         has_any(columns, colour_names[1]);
   if (coloured) bytes += colour_bytes;
   if (has_any(columns, label_name)) bytes += label_bytes;
+  if (has_any(columns, intensity_names)) bytes += intensity_bytes;
   if (has_any(columns, viewpoint_names)) bytes += viewpoint_bytes;
   if (std::ranges::any_of(columns, [](const Column& column) { return is_covariance_column(column.name); }))
     bytes += covariance_bytes;
@@ -187,7 +205,8 @@ void note_covariances(Scan& scan) {
 
 bool is_point_table_column(std::string_view name) {
   const auto has = [&](const auto& names) { return std::ranges::find(names, name) != names.end(); };
-  return has(coordinate_names) || has(viewpoint_names) || has(label_name) || is_covariance_column(name);
+  return has(coordinate_names) || has(viewpoint_names) || has(label_name) || has(intensity_names) ||
+         is_covariance_column(name);
 }
 
 Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t points, OriginRule rule,
@@ -207,8 +226,7 @@ Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t 
   const Error cancelled{ErrorCode::cancelled, scan.file + ": reading was cancelled."};
   if (!keep_going(options.progress, 1.0)) return cancelled;
   if (plain && place_floats(scan, xyz, points, rule)) {
-    fill_colours(scan, columns, points);
-    fill_labels(scan, columns, points);
+    fill_what_is_beside(scan, columns, points);
     use_intrinsics(scan, options);
     return {};
   }
@@ -228,8 +246,7 @@ Result<void> fill_scan(Scan& scan, std::span<const Column> columns, std::size_t 
     transform(viewpoints, frame.points_from_file, scan.viewpoint.position);
   }
   place_points(scan, coordinates, rule);
-  fill_colours(scan, columns, points);
-  fill_labels(scan, columns, points);
+  fill_what_is_beside(scan, columns, points);
   use_viewpoints(scan, viewpoints);
   if (!keep_going(options.progress, 1.0)) return cancelled;
 

@@ -45,6 +45,7 @@ struct Scan {
   std::vector<std::array<std::uint8_t, 3>> colours;  // red, green, blue
   std::vector<Covariance6> covariances;              // m^2, in the frame of the points
   std::vector<std::uint32_t> labels;
+  std::vector<float> intensities;           // how much came back, in the sensor's own unit
   std::vector<Eigen::Vector3f> viewpoints;  // one sensor position a point (merged clouds), about origin
 
   std::uint32_t width = 0;  // pixel grid, row by row; height 1: not organised

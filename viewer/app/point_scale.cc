@@ -44,6 +44,14 @@ std::optional<PointScale> height_scale(const Document& document, const Eigen::Ve
   return with_ends(document, {"height, m", height});
 }
 
+std::optional<PointScale> intensity_scale(const Document& document) {
+  const auto intensity = [](const ScanEntry& entry, std::size_t i) {
+    const std::vector<float>& intensities = entry.scan->intensities;
+    return intensities.empty() ? std::nan("") : static_cast<double>(intensities[i]);
+  };
+  return with_ends(document, {"intensity", intensity});
+}
+
 Sigmas noise_sigmas(const Scan& scan, const NoiseModel& noise) {
   auto sigmas = std::make_shared<std::vector<float>>(scan.size(), std::numeric_limits<float>::quiet_NaN());
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;

@@ -1,4 +1,5 @@
-// A number of each point that its colour stands for: its height, or how far noise spreads it.
+// A number of each point that its colour stands for: its height, its intensity, or how far
+// noise spreads it.
 #pragma once
 
 #include <functional>
@@ -19,6 +20,9 @@ struct PointScale {
 
 // Heights along the unit vector `up`. Nothing where no finite point is shown.
 std::optional<PointScale> height_scale(const Document& document, const Eigen::Vector3d& up);
+
+// Nothing where no finite point that is shown has an intensity.
+std::optional<PointScale> intensity_scale(const Document& document);
 
 // Largest standard deviation of each point under a noise model, m; NaN where the point is not finite.
 using Sigmas = std::shared_ptr<const std::vector<float>>;

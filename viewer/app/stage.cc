@@ -52,6 +52,7 @@ void Stage::update(const Document& document, const ViewState& state, std::uint64
     scene_.origin = document.scans.front().scan->origin;
   PointScene in{document, state, colours};
   if (state.colours == PointColours::height) in.scale = height_scale(document, wanted.up);
+  if (state.colours == PointColours::intensity) in.scale = intensity_scale(document);
   if (state.colours == PointColours::noise) {
     in.scale = noise_scale(document, [this](const ScanEntry& entry) {
       return has_sigmas(entry) ? sigmas_.at(entry.scan).sigmas : nullptr;

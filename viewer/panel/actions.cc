@@ -95,6 +95,7 @@ constexpr ActionRow kActions[] = {
     {Action::colour_photo, Menu::view, "Points in their own colours", "where the scan has them"},
     {Action::colour_height, Menu::view, "Points by height", "along the axis that the view turns about"},
     {Action::colour_label, Menu::view, "Points by label", "where the scan has labels"},
+    {Action::colour_intensity, Menu::view, "Points by intensity", "where the scan says how much came back"},
     {Action::colour_residual, Menu::view, "Residuals on points",
      "signed distance to the patch in standard deviations", 'C'},
     {Action::colour_noise, Menu::view, "Points by noise",

@@ -67,6 +67,7 @@ enum class Action {
   colour_photo,
   colour_height,
   colour_label,
+  colour_intensity,
   colour_residual,
   colour_noise,
   cividis,

@@ -42,9 +42,10 @@ constexpr Choice<Tool> kToolChoices[] = {{Action::orbit_tool, Tool::orbit},
                                          {Action::surface_tool, Tool::surface},
                                          {Action::measure_tool, Tool::measure}};
 constexpr Choice<PointColours> kColours[] = {
-    {Action::colour_shading, PointColours::shading},   {Action::colour_photo, PointColours::photo},
-    {Action::colour_height, PointColours::height},     {Action::colour_label, PointColours::label},
-    {Action::colour_residual, PointColours::residual}, {Action::colour_noise, PointColours::noise}};
+    {Action::colour_shading, PointColours::shading},     {Action::colour_photo, PointColours::photo},
+    {Action::colour_height, PointColours::height},       {Action::colour_label, PointColours::label},
+    {Action::colour_intensity, PointColours::intensity}, {Action::colour_residual, PointColours::residual},
+    {Action::colour_noise, PointColours::noise}};
 constexpr Choice<SigmaOf> kSigmas[] = {{Action::sigma_of_both, SigmaOf::both},
                                        {Action::sigma_of_shape, SigmaOf::shape},
                                        {Action::sigma_of_pose, SigmaOf::pose}};
@@ -161,6 +162,8 @@ bool is_possible(Action action, const Document& document, const ViewState& state
       return any_scan_has(document, &Scan::colours);
     case Action::colour_label:
       return any_scan_has(document, &Scan::labels);
+    case Action::colour_intensity:
+      return any_scan_has(document, &Scan::intensities);
     case Action::colour_residual:
       return !document.patches.empty();
     default:

@@ -18,7 +18,7 @@
 namespace patchlab::viewer {
 
 enum class Tool { orbit, lasso, rectangle, surface, measure };
-enum class PointColours { shading, photo, height, label, residual, noise };
+enum class PointColours { shading, photo, height, label, intensity, residual, noise };
 // Which part of a patch's covariance is drawn: shape (intrinsic), pose (extrinsic) or both together.
 enum class SigmaOf { both, shape, pose };
 

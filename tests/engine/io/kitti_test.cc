@@ -23,6 +23,7 @@ TEST(Kitti, PointsLieAboutTheSensor) {
   EXPECT_EQ(scan->format, "kitti");
   EXPECT_EQ(scan->size(), 2u);
   EXPECT_EQ(scan->point(1), Eigen::Vector3d(20, 3, -1.5));
+  EXPECT_EQ(scan->intensities, (std::vector<float>{0.25F, 0.F}));
   EXPECT_TRUE(scan->viewpoint.stated);
   EXPECT_TRUE(rotation(scan->viewpoint).col(2).isApprox(Eigen::Vector3d::UnitX())) << "forward is +x";
   EXPECT_TRUE(rotation(scan->viewpoint).col(1).isApprox(-Eigen::Vector3d::UnitZ())) << "down is -z";

@@ -189,6 +189,14 @@ TEST(Pcd, LabelsThatAreNoneAreZeroWithANotice) {
   EXPECT_THAT(scan.notices, Contains(HasSubstr("no label: 1 of them")));
 }
 
+TEST(Pcd, IntensitiesAreReadByAnyOfTheirNames) {
+  for (const std::string name : {"intensity", "reflectivity"}) {
+    const std::string fields = "FIELDS x y z " + name + "\nSIZE 4 4 4 2\nTYPE F F F U\n";
+    const Scan scan = read(Header{.fields = fields}.with("DATA ascii\n1 2 3 70\n4 5 6 900\n"));
+    EXPECT_THAT(scan.intensities, ElementsAre(70.0F, 900.0F)) << name;
+  }
+}
+
 TEST(Pcd, CovariancesAreReadInEachOfTheirForms) {
   const auto covariance = [](const std::string& fields, const std::string& values) {
     const Header one{.fields = fields, .grid = "WIDTH 1\nHEIGHT 1\n", .points = "POINTS 1\n"};

@@ -221,6 +221,24 @@ TEST_F(StageTest, PointsAreColouredByTheirHeightAlongTheAxisOfTheTurntable) {
   EXPECT_NEAR(bar->range.y(), 0.3, 1e-6);
 }
 
+TEST_F(StageTest, PointsAreColouredByTheirIntensityAndPlainWhereThereIsNone) {
+  document.regions.clear();
+  update();
+  const Rgba8 plain = colour(0);
+  state.colours = PointColours::intensity;
+  update();
+  EXPECT_EQ(colour(0), plain);
+  EXPECT_FALSE(stage.notes(ViewCamera{}).points);
+  auto scan = std::make_shared<Scan>(*document.scans[0].scan);
+  scan->intensities = {10, 40, 20, 30};
+  document.scans[0].scan = scan;
+  ++generation;
+  update();
+  EXPECT_EQ(colour(0), to_bytes(sequential(0.0)));
+  EXPECT_EQ(colour(1), to_bytes(sequential(1.0)));
+  EXPECT_STREQ(stage.notes(ViewCamera{}).points->title, "intensity");
+}
+
 TEST_F(StageTest, PointsAreColouredByTheirNoiseOnceItIsKnown) {
   document.regions.clear();
   state.colours = PointColours::noise;
