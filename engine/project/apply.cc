@@ -210,11 +210,13 @@ Result<void> run(Reshape& reshape, Document& document, const ApplyOptions& optio
 }
 
 // Fits `entry` to the points of its scan with these ids.
-Result<void> fit_to(PatchEntry& entry, const ScanEntry& scan, const Ids& ids, const Progress& progress) {
+Result<void> fit_to(PatchEntry& entry, const ScanEntry& scan, const Ids& ids, const ApplyOptions& how) {
   Ids kept;
   const Result<Observations> observations = observe(*scan.scan, scan.noise, ids, &kept);
   if (!observations) return observations.error();
-  Result<FitResult> fit = fit_patch(*observations, entry.options, progress);
+  Result<FitResult> fit = how.fit_from
+                              ? refit_patch(*how.fit_from, *observations, entry.options, how.progress)
+                              : fit_patch(*observations, entry.options, how.progress);
   if (!fit && fit.error().code == ErrorCode::no_finite_fit) {
     return Error{ErrorCode::no_finite_fit, scan.scan->file + ": " + fit.error().message};
   }
@@ -233,8 +235,7 @@ Result<void> run(Fit& fit, Document& document, const ApplyOptions& options) {
   patch.scan = region->scan;
   patch.region = region->id;
   patch.options = fit.options;
-  const Result<void> fitted =
-      fit_to(patch, *find_scan(document, patch.scan), *region->points, options.progress);
+  const Result<void> fitted = fit_to(patch, *find_scan(document, patch.scan), *region->points, options);
   if (!fitted) return fitted;
   const std::string hash = result_hash(*patch.fit);
   if (!options.on && !fit.result_sha256.empty() && fit.result_sha256 != hash) {
@@ -256,7 +257,7 @@ Result<void> run(SetNoise& set, Document& document, const ApplyOptions& options)
   for (PatchEntry& patch : document.patches) {
     if (patch.scan != scan->id) continue;
     const Ids ids = *patch.points;
-    const Result<void> fitted = fit_to(patch, *scan, ids, options.progress);
+    const Result<void> fitted = fit_to(patch, *scan, ids, options);
     if (!fitted) return fitted;
   }
   return {};

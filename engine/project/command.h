@@ -89,6 +89,9 @@ struct ApplyOptions {
   Progress progress;
   std::shared_ptr<VisibilityCache> visibility =
       {};  // optional: keeps what a still camera sees between lassos
+  // A fit starts at this patch and holds its type: for a picture while a lasso moves. Never for what is
+  // recorded, whose bits a replay must find again.
+  std::optional<Patch> fit_from = {};
 };
 
 // The document after a command other than Undo and Redo; fills in what the command left open (hashes).

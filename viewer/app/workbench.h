@@ -126,7 +126,8 @@ class Workbench {
 
   // With `some`, of a large region every so-many-th point only: a picture in a moment.
   Outcome attempt(Document document, const std::optional<Select>& select, Fit fit, Points points,
-                  const Progress& progress) const;
+                  const ApplyOptions& how) const;
+  std::optional<Patch> shown_fit(const Select& select) const;
   ApplyOptions applying(const Progress& progress) const;  // for the worker's thread too
   void change(const std::string& name, Command command);
   void follow(const Command& command, std::optional<Draft> shown);  // refits what a change was about

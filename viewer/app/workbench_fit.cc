@@ -73,6 +73,17 @@ Fit Workbench::fit_command(const std::string& region) const {
   return fit;
 }
 
+// The patch on the screen, where a lasso adds to its region or takes away and it is what is asked for: the
+// next one is near it.
+std::optional<Patch> Workbench::shown_fit(const Select& select) const {
+  const PatchEntry* shown = patch_of(document(), select.region);
+  const bool is_asked_for = shown && shown->fit && shown->options.surface == choice_.surface &&
+                            shown->options.boundary == choice_.boundary &&
+                            shown->options.robust == choice_.robust;
+  if (select.mode == SelectMode::set || !is_asked_for) return std::nullopt;
+  return shown->fit->patch;
+}
+
 ApplyOptions Workbench::applying(const Progress& progress) const {
   ApplyOptions options = with_progress(progress);
   options.visibility = visibility_;
@@ -80,12 +91,12 @@ ApplyOptions Workbench::applying(const Progress& progress) const {
 }
 
 Workbench::Outcome Workbench::attempt(Document document, const std::optional<Select>& select, Fit fit,
-                                      Points points, const Progress& progress) const {
+                                      Points points, const ApplyOptions& how) const {
   Outcome outcome;
   outcome.document = std::move(document);
   if (select) {
     Command command = *select;
-    Result<Document> selected = apply(outcome.document, command, applying(progress));
+    Result<Document> selected = apply(outcome.document, command, how);
     if (!selected) return {std::move(outcome.document), std::nullopt, selected.error()};
     outcome.document = std::move(*selected);
   }
@@ -95,7 +106,7 @@ Workbench::Outcome Workbench::attempt(Document document, const std::optional<Sel
   if (outcome.one_in > 1) region.points = thinned(*all, outcome.one_in);
   const auto start = std::chrono::steady_clock::now();
   Command command = std::move(fit);
-  Result<Document> fitted = apply(outcome.document, command, applying(progress));
+  Result<Document> fitted = apply(outcome.document, command, how);
   outcome.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (fitted) {
@@ -123,9 +134,11 @@ void Workbench::preview(const Stroke& stroke) {
   const Select select = select_command(stroke);
   currency_ = Currency::fitting;
   fit_asked_ = std::chrono::steady_clock::now();
-  worker_.preview([this, select, fit = fit_command(select.region),
+  worker_.preview([this, select, fit = fit_command(select.region), from = shown_fit(select),
                    before = session_.document()](const Progress& progress) -> Worker::Finish {
-    auto outcome = std::make_shared<Outcome>(attempt(before, select, fit, Points::some, progress));
+    ApplyOptions how = applying(progress);
+    how.fit_from = from;
+    auto outcome = std::make_shared<Outcome>(attempt(before, select, fit, Points::some, how));
     return [this, outcome] { accept(std::move(*outcome), false); };
   });
 }
@@ -223,7 +236,7 @@ void Workbench::refit() {
 void Workbench::fit(Points points) {
   worker_.preview([this, points, fit = fit_command(region_),
                    before = session_.document()](const Progress& progress) -> Worker::Finish {
-    auto outcome = std::make_shared<Outcome>(attempt(before, std::nullopt, fit, points, progress));
+    auto outcome = std::make_shared<Outcome>(attempt(before, std::nullopt, fit, points, applying(progress)));
     return [this, points, outcome] {
       accept(std::move(*outcome), points == Points::all);
       if (points == Points::some) this->fit(Points::all);

@@ -20,6 +20,24 @@ TEST_F(WorkbenchTest, APreviewIsShownButNotRecorded) {
   EXPECT_EQ(bench_.currency(), Currency::nothing);
 }
 
+// While a lasso adds to a region its patch is fitted from where it stands; what is kept is fitted afresh.
+TEST_F(WorkbenchTest, TheShownPatchIsWhereThePreviewOfAnAddingLassoStarts) {
+  bench_.choose({SurfaceRequest::automatic, true});
+  bench_.select(square(11));
+  finish();
+  const auto candidates = [this] { return bench_.document().patches.at(0).fit->report.candidates.size(); };
+  const SurfaceType shown = bench_.document().patches.at(0).fit->patch.type->surface;
+  const std::size_t compared = candidates();
+  EXPECT_GT(compared, 1u);
+  bench_.preview(square(13, SelectMode::add));
+  finish();
+  EXPECT_EQ(candidates(), 1u);
+  EXPECT_EQ(bench_.document().patches.at(0).fit->patch.type->surface, shown);
+  bench_.select(square(13, SelectMode::add));
+  finish();
+  EXPECT_EQ(candidates(), compared);
+}
+
 TEST_F(WorkbenchTest, ASelectionIsRecordedAndItsFitIsKeptOnRequest) {
   bench_.select(square(13));
   finish();
