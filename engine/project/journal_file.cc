@@ -59,12 +59,14 @@ Result<JournalFile> JournalFile::open(const std::filesystem::path& path) {
 JournalFile::JournalFile(JournalFile&& other) noexcept
     : path_(std::move(other.path_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      length_(std::exchange(other.length_, 0)) {}
+      length_(std::exchange(other.length_, 0)),
+      torn_(std::exchange(other.torn_, false)) {}
 
 JournalFile& JournalFile::operator=(JournalFile&& other) noexcept {
   std::swap(path_, other.path_);
   std::swap(descriptor_, other.descriptor_);
   std::swap(length_, other.length_);
+  std::swap(torn_, other.torn_);
   return *this;
 }
 
@@ -84,15 +86,21 @@ Result<void> JournalFile::truncate(std::size_t length) {
   const bool done = ::ftruncate(descriptor_, static_cast<off_t>(length)) == 0 && ::fsync(descriptor_) == 0;
   if (!done) return unwritable(errno);
   length_ = length;
+  torn_ = false;
   return {};
 }
 
 Result<void> JournalFile::append(std::string_view bytes) {
+  if (torn_) {
+    if (const Result<void> restored = truncate(length_); !restored) return restored;
+  }
+  torn_ = true;
   if (const int reason = write_all(descriptor_, bytes); reason != 0) {
     const Result<void> restored = truncate(length_);
     return restored ? unwritable(reason) : restored;
   }
   length_ += bytes.size();
+  torn_ = false;
   return {};
 }
 

@@ -33,6 +33,7 @@ class JournalFile {
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::size_t length_ = 0;  // of what is acknowledged
+  bool torn_ = false;       // the file may hold more than that, of an append that failed
 };
 
 }  // namespace patchlab

@@ -54,7 +54,7 @@ ordered_json write(const ValidationLimits& limits) {
 }  // namespace
 
 ViewCamera read_camera(const JsonPlace& place) {
-  place.only({"position", "quaternion_xyzw", "fov_y", "height", "near", "projection", "viewport"});
+  place.only({"position", "quaternion_xyzw", "fov_y", "height", "near", "far", "projection", "viewport"});
   ViewCamera camera;
   may_name(place, "projection", camera.perspective, perspective_from_name);
   camera.position = read_position(place["position"]);
@@ -70,6 +70,8 @@ ViewCamera read_camera(const JsonPlace& place) {
   }
   camera.near_plane = place["near"].number();
   must(camera.near_plane >= 0.0, place, "must not have a negative near");
+  may(place, "far", camera.far_plane, &JsonPlace::number);
+  must(camera.far_plane > camera.near_plane, place, "must have a far beyond its near");
   camera.viewport = read_viewport(place["viewport"]);
   return camera;
 }
@@ -82,6 +84,7 @@ ordered_json write(const ViewCamera& camera) {
     object["height"] = camera.height;
   }
   object["near"] = camera.near_plane;
+  if (std::isfinite(camera.far_plane)) object["far"] = camera.far_plane;
   object["projection"] = camera.perspective ? "perspective" : "orthographic";
   object["viewport"] = camera.viewport;
   return object;

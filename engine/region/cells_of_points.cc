@@ -31,11 +31,13 @@ template <bool perspective>
     const float w = perspective ? depth : 1.0f, a_w = perspective ? 1.0f / depth : 1.0f;
     const float column = dot(camera.column, x, y, z) * a_w, row = dot(camera.row, x, y, z) * a_w;
     const bool on_grid = (column >= 0.0f) & (row >= 0.0f) & (column < columns) & (row < rows);
-    const bool sure = (rounding < margin * w) & (depth > camera.near_plane + rounding);
+    const bool sure = (rounding < margin * w) & (depth > camera.near_plane + rounding) &
+                      (depth < camera.far_plane - rounding);
     const float sum = x + y + z;
-    const bool behind = (depth < camera.near_plane - rounding) | (sum != sum);
+    const bool hidden =
+        (depth < camera.near_plane - rounding) | (depth > camera.far_plane + rounding) | (sum != sum);
     const std::int32_t cell = clamped(row, camera.rows) * camera.columns + clamped(column, camera.columns);
-    cells[i] = sure ? (on_grid ? cell : nowhere) : (behind ? nowhere : unsure);
+    cells[i] = sure ? (on_grid ? cell : nowhere) : (hidden ? nowhere : unsure);
   }
 }
 
@@ -82,6 +84,7 @@ CellCamera cell_camera(const ViewCamera& camera, const Eigen::Vector3d& origin,
           narrow(depth),
           narrow(rounding),
           static_cast<float>(camera.near_plane),
+          static_cast<float>(camera.far_plane),
           static_cast<std::int32_t>(grid.columns),
           static_cast<std::int32_t>(grid.rows),
           camera.perspective};

@@ -19,7 +19,7 @@ struct CellCamera {
   std::array<float, 4> column, row, depth;  // depth in metre
   std::array<float, 4> rounding;  // times (|x|, |y|, |z|, 1): bounds the rounding of column.q, row.q in cells
                                   // and of depth.q in metre, each by far
-  float near_plane;               // m
+  float near_plane, far_plane;    // m
   std::int32_t columns, rows;     // of the grid
   bool perspective;
 };
@@ -28,7 +28,7 @@ CellCamera cell_camera(const ViewCamera& camera, const Eigen::Vector3d& origin,
                        const PolygonMask::Grid& grid);
 
 // cells[i]: row by row, the cell of the point xyz[3 i], xyz[3 i + 1], xyz[3 i + 2]; columns * rows where it
-// is surely not seen in the grid (behind the near plane, beside it, not a number); one more where that is
+// is surely not seen in the grid (not between the planes, beside it, not a number); one more where that is
 // unsure. A cell that is given is its cell, or lies within PolygonMask::margin of it.
 void cells_of_points(const CellCamera& camera, const float* xyz, std::size_t count, std::int32_t* cells);
 

@@ -49,7 +49,7 @@ std::vector<std::uint32_t> select_lasso(const Scan& scan, const ViewCamera& came
   const auto is_inside = [&](std::uint32_t id) {
     if (!scan.finite[id]) return false;
     const Projected pixel = project_point(scan.point(id));
-    return pixel.depth > camera.near_plane && mask.contains(pixel.x, pixel.y);
+    return in_depth(camera, pixel.depth) && mask.contains(pixel.x, pixel.y);
   };
   const PolygonMask::Grid grid = mask.grid();
   if (grid.rows == 0) {

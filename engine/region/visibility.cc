@@ -78,8 +78,8 @@ float nearest_around(const DepthGrid& grid, int x, int y) {
 
 bool same(const ViewCamera& a, const ViewCamera& b) {
   return a.position == b.position && a.quaternion_xyzw == b.quaternion_xyzw && a.fov_y == b.fov_y &&
-         a.near_plane == b.near_plane && a.perspective == b.perspective && a.height == b.height &&
-         a.viewport == b.viewport;
+         a.near_plane == b.near_plane && a.far_plane == b.far_plane && a.perspective == b.perspective &&
+         a.height == b.height && a.viewport == b.viewport;
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> visible_points(const Scan& scan, const ViewCamera& cam
   const Projector project_point(camera);
   const int width = camera.viewport[0], height = camera.viewport[1];
   const auto in_view = [&](const Projected& p) {
-    return p.depth > camera.near_plane && p.x >= 0.0 && p.y >= 0.0 && p.x < width && p.y < height;
+    return in_depth(camera, p.depth) && p.x >= 0.0 && p.y >= 0.0 && p.x < width && p.y < height;
   };
   std::vector<std::uint8_t> seen(scan.size(), 0);
   std::vector<Projected> pixels(scan.size());

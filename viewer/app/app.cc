@@ -99,7 +99,7 @@ double App::aspect() const { return layout_.view.width / std::max(1.0f, layout_.
 
 ViewCamera App::view() const {
   return view_camera(stage_.camera, std::max(1, static_cast<int>(layout_.view.width)),
-                     std::max(1, static_cast<int>(layout_.view.height)));
+                     std::max(1, static_cast<int>(layout_.view.height)), state_.slab);
 }
 
 void App::toast(const std::string& text, bool is_error) {

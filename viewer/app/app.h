@@ -120,6 +120,7 @@ class App {
   bool open_sheet(Action action);
   void act_on_document(Action action);
   void cancel();
+  void toggle_slab();
   void keep();
   void remove_selected();
   void hide_selected();

@@ -38,6 +38,7 @@ void App::answer(const Requests& requests) {
   if (requests.widths) state_.widths = *requests.widths;
   if (requests.save_journal) workbench_.save_journal(*requests.save_journal);
   if (requests.export_to) workbench_.write_patches(*requests.export_to);
+  if (requests.slab) state_.slab = requests.slab;
   if (requests.cancel_work) workbench_.cancel_work();
 }
 
@@ -84,6 +85,9 @@ bool App::act_on_contour_and_fit(Action action) {
     case Action::keep:
       keep();
       return true;
+    case Action::depth_slab:
+      toggle_slab();
+      return true;
     case Action::visible_only:
       state_.visible_only = !state_.visible_only;
       return true;
@@ -94,6 +98,15 @@ bool App::act_on_contour_and_fit(Action action) {
     default:
       return false;
   }
+}
+
+void App::toggle_slab() {
+  constexpr double share = 0.15;  // of the distance of the eye, to either side at first
+  const double thickness = share * stage_.camera.distance;
+  if (state_.slab)
+    state_.slab.reset();
+  else
+    state_.slab = DepthSlab{thickness, thickness};
 }
 
 bool App::open_sheet(Action action) {

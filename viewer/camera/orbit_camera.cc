@@ -113,7 +113,8 @@ OrbitCamera between(const OrbitCamera& from, const OrbitCamera& to, double part)
   return camera;
 }
 
-ViewCamera view_camera(const OrbitCamera& camera, int viewport_width, int viewport_height) {
+ViewCamera view_camera(const OrbitCamera& camera, int viewport_width, int viewport_height,
+                       const std::optional<DepthSlab>& slab) {
   const Matrix3d axes = world_from_view(camera);
   const Quaterniond q(axes);
   const double retreat = camera.perspective ? camera.distance : kOrthographicRetreat * camera.distance;
@@ -125,6 +126,9 @@ ViewCamera view_camera(const OrbitCamera& camera, int viewport_width, int viewpo
   view.perspective = camera.perspective;
   view.height = metres_per_pixel(camera, 1.0);
   view.viewport = {viewport_width, viewport_height};
+  if (!slab) return view;
+  view.near_plane = std::max(view.near_plane, retreat - slab->front);
+  view.far_plane = retreat + slab->back;
   return view;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "engine/region/lasso.h"
 
@@ -37,8 +38,15 @@ struct OrbitCamera {
 // Part of the way from one camera to another (0: from, 1: to), for a short flight.
 OrbitCamera between(const OrbitCamera& from, const OrbitCamera& to, double part);
 
+// A layer of the scene, as thick as it is before and behind the plane of the pivot: what is not in it is
+// neither drawn nor selected.
+struct DepthSlab {
+  double front, back;  // m, positive
+};
+
 // What the journal, the lasso and the renderer take. `viewport` in pixels.
-ViewCamera view_camera(const OrbitCamera& camera, int viewport_width, int viewport_height);
+ViewCamera view_camera(const OrbitCamera& camera, int viewport_width, int viewport_height,
+                       const std::optional<DepthSlab>& slab = {});
 // The camera that sees what the sensor saw: at the viewpoint, turned as the sensor, pivot at `depth` in front
 // of it.
 OrbitCamera from_sensor(const Viewpoint& viewpoint, double depth, double fov_y);

@@ -40,6 +40,8 @@ constexpr ActionRow kActions[] = {
     {Action::mode_subtract, Menu::select, "Subtract", "a new contour takes away from the selection (Ctrl)"},
     {Action::mode_intersect, Menu::select, "Intersect",
      "only what is also in a new contour stays (Shift+Ctrl)"},
+    {Action::depth_slab, Menu::select, "Depth slab", "only a layer about the pivot is shown and selected",
+     'Z'},
     {Action::last_vertex, Menu::select, "Take last corner back", "while drawing", key::backspace},
     {Action::cancel, Menu::select, "Cancel", "the contour first, then the fit, then the tool", key::escape},
 

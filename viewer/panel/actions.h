@@ -27,6 +27,7 @@ enum class Action {
   mode_add,
   mode_subtract,
   mode_intersect,
+  depth_slab,
   last_vertex,
   cancel,
   invert,

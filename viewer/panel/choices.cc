@@ -102,6 +102,8 @@ std::optional<bool> is_chosen(Action action, const ViewState& state) {
   switch (action) {
     case Action::visible_only:
       return state.visible_only;
+    case Action::depth_slab:
+      return state.slab.has_value();
     case Action::robust:
       return state.robust;
     case Action::perspective:

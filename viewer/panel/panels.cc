@@ -4,6 +4,7 @@ namespace patchlab::viewer {
 
 void draw_panels(const PanelInput& in, PanelMemory& memory, Requests& out) {
   draw_overlay(in);
+  draw_slab(in, out);
   draw_toasts(in);
   if (in.state.side_panels) {
     draw_splitters(in, out);  // before what they lie over: ImGui puts later windows of this kind behind

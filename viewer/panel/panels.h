@@ -45,6 +45,7 @@ void draw_overlay(const PanelInput& in);  // over the scene: notes, pill, scale 
 void draw_help_sheet(const PanelInput& in, PanelMemory& memory);
 void draw_toasts(const PanelInput& in);
 void draw_splitters(const PanelInput& in, Requests& out);
+void draw_slab(const PanelInput& in, Requests& out);  // how thick the depth slab is
 void draw_palette(const PanelInput& in, PanelMemory& memory, Requests& out);
 void draw_messages(const PanelInput& in, PanelMemory& memory);
 

@@ -11,6 +11,7 @@
 #include "engine/fit/fit_patch.h"
 #include "engine/project/command.h"
 #include "engine/region/lasso.h"
+#include "viewer/camera/orbit_camera.h"
 #include "viewer/panel/actions.h"
 #include "viewer/panel/colours.h"
 #include "viewer/panel/theme.h"
@@ -113,6 +114,7 @@ struct ViewState {
   bool contour_closes = false;           // a click now would close it
 
   std::optional<MeasuredLine> measured;
+  std::optional<DepthSlab> slab;  // all that is shown and selected; absent: everything
 
   std::vector<std::string> history;
   std::size_t position = 0;  // how much of the history stands
@@ -162,6 +164,7 @@ struct Requests {
   std::optional<ExportRequest> export_to;
   std::optional<PictureRequest> picture;
   std::optional<PanelWidths> widths;
+  std::optional<DepthSlab> slab;
   bool cancel_work = false;
 };
 

@@ -13,16 +13,17 @@ struct DepthRange {
   double nearest, farthest;
 };
 
-// Of the box, in front of the near plane.
-DepthRange depth_range(const Eigen::Matrix4d& view_from_local, const Box& local, double near_plane) {
-  DepthRange range{std::numeric_limits<double>::max(), near_plane};
+// Of the box, between the planes of the camera.
+DepthRange depth_range(const Eigen::Matrix4d& view_from_local, const Box& local, const ViewCamera& camera) {
+  DepthRange range{std::numeric_limits<double>::max(), camera.near_plane};
   for (int corner = 0; corner < 8 && !local.isEmpty(); ++corner) {
     const Eigen::Vector3d point = local.corner(static_cast<Box::CornerType>(corner)).cast<double>();
     const double depth = -(view_from_local * point.homogeneous()).z();
     range.nearest = std::min(range.nearest, depth);
     range.farthest = std::max(range.farthest, depth);
   }
-  range.nearest = std::clamp(range.nearest, near_plane, range.farthest);
+  range.farthest = std::min(range.farthest, camera.far_plane);
+  range.nearest = std::clamp(range.nearest, camera.near_plane, range.farthest);
   return range;
 }
 
@@ -33,14 +34,15 @@ View make_view(const ViewCamera& camera, const Viewport& viewport, const Eigen::
   Eigen::Matrix4d world_from_local = Eigen::Matrix4d::Identity();
   world_from_local.topRightCorner<3, 1>() = origin;
   const Eigen::Matrix4d view_from_local = view_from_world(camera) * world_from_local;
-  const DepthRange range = depth_range(view_from_local, local, camera.near_plane);
+  const DepthRange range = depth_range(view_from_local, local, camera);
 
   const double slack = 0.01 * (range.farthest - range.nearest) + camera.near_plane;
   ViewCamera close = camera;
   close.viewport = {viewport.width, viewport.height};
   close.near_plane = std::max(range.nearest - slack, camera.near_plane);
   View view;
-  view.clip_from_view = clip_from_view(close, range.farthest + slack).cast<float>();
+  view.clip_from_view =
+      clip_from_view(close, std::min(range.farthest + slack, camera.far_plane)).cast<float>();
   view.view_from_local = view_from_local.cast<float>();
   view.near_depth = static_cast<float>(close.near_plane);
   view.nearest = static_cast<float>(range.nearest);

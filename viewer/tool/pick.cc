@@ -14,7 +14,7 @@ std::optional<std::uint32_t> pick_point(const Scan& scan, const ViewCamera& came
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (!scan.finite[i]) continue;
     const Projected p = project(camera, scan.point(i));
-    if (p.depth <= camera.near_plane) continue;
+    if (!in_depth(camera, p.depth)) continue;
     const double away = std::hypot(p.x - pixel.x(), p.y - pixel.y());
     if (away > window) continue;
     const double score = std::max(away, window / 4) * p.depth;

@@ -52,6 +52,7 @@ TEST(CommandJson, KeepsEveryMemberThereAndBack) {
   lasso.camera.perspective = false;
   lasso.camera.height = 0.3;
   lasso.camera.near_plane = 0.0;
+  lasso.camera.far_plane = 2.5;
   lasso.camera.viewport = {640, 480};
   Select label{.region = "region-4", .scan = "scan-2", .mode = SelectMode::add};
   label.label = 50;
@@ -156,6 +157,8 @@ TEST(CommandJson, RefusesACameraThatSeesNothing) {
        "select.camera lacks the member \"fov_y\""},
       {R"("quaternion_xyzw":[0,0,0,1],"fov_y":0.8,"near":-1,"viewport":[100,100]}})",
        "must not have a negative near"},
+      {R"("quaternion_xyzw":[0,0,0,1],"fov_y":0.8,"near":1,"far":1,"viewport":[100,100]}})",
+       "must have a far beyond its near"},
       {R"("quaternion_xyzw":[0,0,0,1],"fov_y":4,"near":0,"viewport":[100,100]}})",
        "must have a fov_y between 0 and pi"},
       {R"("quaternion_xyzw":[0,0,0,0],"fov_y":0.8,"near":0,"viewport":[9,9]}})",

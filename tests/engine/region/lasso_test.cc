@@ -259,13 +259,22 @@ TEST(SelectLasso, EqualsTheExactTestOfEveryProjectedPoint) {
   }
 }
 
+TEST(SelectLasso, TakesNothingBeyondTheFarPlane) {
+  const Scan scan = scan_of({{0, 0, -1}, {0, 0, -2}, {0, 0, -2.001F}, {0, 0, -1e30F}});
+  ViewCamera camera;
+  camera.far_plane = 2.0;
+  EXPECT_THAT(select_lasso(scan, camera, kMiddle), ElementsAre(0u, 1u));
+  camera.far_plane = 0.5;
+  EXPECT_THAT(select_lasso(scan, camera, kMiddle), IsEmpty());
+}
+
 std::vector<std::uint32_t> tested_one_by_one(const Scan& scan, const ViewCamera& camera,
                                              const Contour& contour) {
   std::vector<std::uint32_t> inside;
   for (std::uint32_t i = 0; i < scan.size(); ++i) {
     const Projected pixel = project(camera, scan.point(i));
     const bool in =
-        scan.finite[i] && pixel.depth > camera.near_plane && inside_polygon(contour, pixel.x, pixel.y);
+        scan.finite[i] && in_depth(camera, pixel.depth) && inside_polygon(contour, pixel.x, pixel.y);
     if (in) inside.push_back(i);
   }
   return inside;
@@ -285,6 +294,7 @@ TEST(SelectLasso, EqualsTheExactTestFromAnyCamera) {
         ViewCamera camera;
         camera.position = scan.origin + Eigen::Vector3d(0.1, 0.2, distance);
         camera.perspective = perspective;
+        if (distance == 2.5) camera.far_plane = 3.0;
         camera.fov_y = distance > 1e3 ? 1e-3 : 0.8;
         camera.height = distance > 1e3 ? 0.01 : 3.0;
         const Contour contour = random_contour(random, 40, -200.0, 1500.0);

@@ -77,6 +77,29 @@ TEST_F(ShellTest, ACommandIsFoundByAPartOfItsNameAndRunByEnter) {
   EXPECT_EQ(program_.app().settings().theme, ThemeChoice::light) << "what the window comes back with";
 }
 
+// Of the ball before its wall: what a lasso through both takes.
+TEST_F(ShellTest, WhatIsNotInTheDepthSlabIsNotSelected) {
+  open_ball();
+  const std::string round_all = "key L\ndrag " + program_.at(-0.5, -0.5) + " " + program_.at(0.5, -0.5) +
+                                " " + program_.at(0.5, 0.5) + " " + program_.at(-0.5, 0.5) + "\nwait\n";
+  const auto selected = [this] {
+    return program_.app().workbench().session().document().regions.back().points->size();
+  };
+  program_.play("key X\n" + round_all);
+  const std::size_t all = selected();
+  program_.play("key Z\n");
+  ASSERT_TRUE(state().slab);
+  EXPECT_TRUE(program_.app().widgets().contains("slab/front"));
+  program_.play(round_all);
+  EXPECT_LT(selected(), all) << "the ball is before the slab";
+  EXPECT_GT(selected(), all / 2) << "the wall is in it";
+  program_.picture("program_slab");
+  program_.play("click slab/close\n");
+  EXPECT_FALSE(state().slab);
+  program_.play(round_all);
+  EXPECT_EQ(selected(), all);
+}
+
 TEST_F(ShellTest, NamedViewsLookAlongTheAxes) {
   open_ball();
   program_.play("key 7\nwait\n");
