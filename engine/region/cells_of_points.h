@@ -32,8 +32,14 @@ CellCamera cell_camera(const ViewCamera& camera, const Eigen::Vector3d& origin,
 // unsure. A cell that is given is its cell, or lies within PolygonMask::margin of it.
 void cells_of_points(const CellCamera& camera, const float* xyz, std::size_t count, std::int32_t* cells);
 
-// The same for any processor: what the other is held to.
+// Writes the indices i of those of `count` cells that are not outside, ascending, and returns how many.
+std::size_t not_outside(const PolygonMask::Grid& grid, const std::int32_t* cells, std::size_t count,
+                        std::uint32_t* indices);
+
+// The same for any processor: what the others are held to.
 void cells_of_points_plain(const CellCamera& camera, const float* xyz, std::size_t count,
                            std::int32_t* cells);
+std::size_t not_outside_plain(const PolygonMask::Grid& grid, const std::int32_t* cells, std::size_t count,
+                              std::uint32_t* indices);
 
 }  // namespace patchlab

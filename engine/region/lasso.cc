@@ -15,20 +15,16 @@ constexpr std::size_t block = 1024;  // points at a time
 
 // Of a block of points: those whose cell says inside, and those it leaves open that are.
 template <class IsInside>
-void add_block(const Scan& scan, const CellCamera& camera, const PolygonMask::Cell* grid, std::size_t first,
+void add_block(const Scan& scan, const CellCamera& camera, const PolygonMask::Grid& grid, std::size_t first,
                const IsInside& is_inside, std::vector<std::uint32_t>& selected) {
   const std::size_t count = std::min(block, scan.size() - first);
   std::array<std::int32_t, block> cells;
-  std::array<std::uint32_t, block> candidates;
+  std::array<std::uint32_t, block> open;
   cells_of_points(camera, scan.positions[first].data(), count, cells.data());
-  std::size_t found = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    candidates[found] = i;
-    found += grid[cells[i]] != PolygonMask::outside;
-  }
+  const std::size_t found = not_outside(grid, cells.data(), count, open.data());
   for (std::size_t k = 0; k < found; ++k) {
-    const std::uint32_t i = candidates[k], id = static_cast<std::uint32_t>(first) + i;
-    if (grid[cells[i]] == PolygonMask::inside || is_inside(id)) selected.push_back(id);
+    const std::uint32_t i = open[k], id = static_cast<std::uint32_t>(first) + i;
+    if (grid.cells[cells[i]] == PolygonMask::inside || is_inside(id)) selected.push_back(id);
   }
 }
 
@@ -60,7 +56,7 @@ std::vector<std::uint32_t> select_lasso(const Scan& scan, const ViewCamera& came
   }
   const CellCamera cells = cell_camera(camera, scan.origin, grid);
   for (std::size_t first = 0; first < scan.size(); first += block) {
-    add_block(scan, cells, grid.cells, first, is_inside, selected);
+    add_block(scan, cells, grid, first, is_inside, selected);
   }
   return selected;
 }

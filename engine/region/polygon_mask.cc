@@ -111,8 +111,9 @@ void PolygonMask::bucket_edges() {
 }
 
 void PolygonMask::mark_edge_cells() {
-  cells_.assign(static_cast<std::size_t>(rows_ * columns_) + 2, outside);
-  cells_.back() = on_edge;
+  const auto count = static_cast<std::size_t>(rows_ * columns_);
+  cells_.assign(count + 5, outside);
+  cells_[count + 1] = on_edge;
   for (std::ptrdiff_t r = 0; r < rows_; ++r) {
     Cell* const row = cells_.data() + r * columns_;
     for (const PolygonEdge& edge : edges_of(r)) {

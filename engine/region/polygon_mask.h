@@ -41,7 +41,7 @@ class PolygonMask {
     Eigen::Vector2d low;           // its corner, px
     double cells_a_pixel;          // a power of two
     std::ptrdiff_t columns, rows;  // 0: no grid, every point needs contains()
-    const Cell* cells;             // row by row, and after the last one outside and one on_edge
+    const Cell* cells;  // row by row; after the last one outside, one on_edge, and room to read four at once
   };
   Grid grid() const { return {low_, cells_a_pixel_, columns_, rows_, cells_.data()}; }
 

@@ -321,6 +321,12 @@ TEST(CellsOfPoints, AreSureOfNearlyAllAndTheSameOnAnyProcessor) {
   cells_of_points_plain(camera, xyz.data(), points, plain.data());
   const auto unsure = static_cast<std::int32_t>(grid.columns * grid.rows + 1);
   EXPECT_LT(std::count(fast.begin(), fast.end(), unsure), 50);
+  std::vector<std::uint32_t> found(points), found_plainly(points);
+  const std::size_t few = points - 3;
+  found.resize(not_outside(grid, fast.data(), few, found.data()));
+  found_plainly.resize(not_outside_plain(grid, fast.data(), few, found_plainly.data()));
+  EXPECT_GT(found.size(), 1'000u);
+  EXPECT_EQ(found, found_plainly);
   for (std::size_t i = 0; i < points; ++i) {
     const PolygonMask::Cell a = grid.cells[fast[i]], b = grid.cells[plain[i]];
     EXPECT_TRUE(a == b || a == PolygonMask::on_edge || b == PolygonMask::on_edge) << i;
