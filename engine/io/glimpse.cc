@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_head = 64 << 10;
+constexpr std::size_t longest_beginning = 64 << 10;
 constexpr std::uint64_t windows = 1000;  // the places of a file that are read
 
 // Where the points lie in a file: records of the same size, or lines of text up to the end of the file.
@@ -86,14 +86,14 @@ std::string head_of_ply(std::string_view head, std::uint64_t points) {
 
 std::string head_of_table(std::string_view head, std::uint64_t) { return std::string(head); }
 
-struct FormatRow {
+struct GlimpseRow {
   ScanReader reader;
   std::optional<Layout> (*layout)(std::string_view head);
   std::string (*head)(std::string_view head, std::uint64_t points);  // of so many points
 };
-constexpr FormatRow format_rows[] = {{read_pcd, layout_of_pcd, head_of_pcd},
-                                     {read_ply, layout_of_ply, head_of_ply},
-                                     {read_point_table, layout_of_table, head_of_table}};
+constexpr GlimpseRow glimpse_rows[] = {{read_pcd, layout_of_pcd, head_of_pcd},
+                                       {read_ply, layout_of_ply, head_of_ply},
+                                       {read_point_table, layout_of_table, head_of_table}};
 
 struct Some {
   std::string bytes;
@@ -157,10 +157,10 @@ std::optional<Scan> glimpse_scan(const fs::path& file, const ReadOptions& option
   if (failed || file_bytes < std::max<std::uint64_t>(size.of_bytes, 1)) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
   std::string head;
-  add(in, 0, std::min<std::uint64_t>(file_bytes, longest_head), head);
+  add(in, 0, std::min<std::uint64_t>(file_bytes, longest_beginning), head);
   const auto* const row =
-      std::ranges::find(format_rows, scan_reader(head, file.string()), &FormatRow::reader);
-  if (row == std::end(format_rows)) return std::nullopt;
+      std::ranges::find(glimpse_rows, scan_reader(head, file.string()), &GlimpseRow::reader);
+  if (row == std::end(glimpse_rows)) return std::nullopt;
   const std::optional<Layout> layout = row->layout(head);
   if (!layout) return std::nullopt;
   const std::optional<Some> some = layout->record_bytes > 0
