@@ -80,10 +80,11 @@ TEST_F(ShellTest, ACommandIsFoundByAPartOfItsNameAndRunByEnter) {
 // Of the ball before its wall: what a lasso through both takes.
 TEST_F(ShellTest, WhatIsNotInTheDepthSlabIsNotSelected) {
   open_ball();
-  const std::string round_all = "key L\ndrag " + program_.at(-0.5, -0.5) + " " + program_.at(0.5, -0.5) +
-                                " " + program_.at(0.5, 0.5) + " " + program_.at(-0.5, 0.5) + "\nwait\n";
+  const std::string round_all = "key L\ndrag " + program_.at(-0.4, -0.4) + " " + program_.at(0.4, -0.4) +
+                                " " + program_.at(0.4, 0.4) + " " + program_.at(-0.4, 0.4) + "\nwait\n";
   const auto selected = [this] {
-    return program_.app().workbench().session().document().regions.back().points->size();
+    const std::vector<RegionEntry>& regions = program_.app().workbench().session().document().regions;
+    return regions.empty() ? 0 : regions.back().points->size();
   };
   program_.play("key X\n" + round_all);
   const std::size_t all = selected();
