@@ -41,42 +41,6 @@ Result<UncertainPose> a_from_b(const MergeRequest& request, const PatchMap& a, c
   return compose(*chain);
 }
 
-// The sources of B under ids of their own, where A's mean other scans.
-void rename_sources(const PatchSet& a, PatchSet& b) {
-  for (PatchSource& source : b.sources) {
-    const std::string old = source.id;
-    for (const PatchSource& other : a.sources) {
-      if (other.id == source.id && other.sha256 != source.sha256)
-        source.id += "@" + source.sha256.substr(0, 8);
-    }
-    for (PatchRecord& record : b.patches) {
-      if (record.source == old) record.source = source.id;
-    }
-  }
-}
-
-// A sight counts once: the patch of B that the map holds already, or nothing.
-std::string seen_before(const PatchMap& map, const PatchSet& b) {
-  for (const MapPatch& patch : map.patches) {
-    for (const Observation& seen : patch.observations) {
-      for (const PatchRecord& record : b.patches) {
-        if (!record.source.empty() && record.source == seen.source && record.id == seen.id) return record.id;
-      }
-    }
-  }
-  return {};
-}
-
-View view_of(const PatchSet& set, const UncertainPose& pose) {
-  View view{{}, {}, {}, pose};
-  for (const PatchRecord& record : set.patches) {
-    view.sources.push_back(record.source);
-    view.ids.push_back(record.id);
-    view.patches.push_back(record.patch);
-  }
-  return view;
-}
-
 std::string sentence(const Match& match, const PatchMap& map, const View& view) {
   char numbers[120];
   std::snprintf(numbers, sizeof numbers, ": distance %.2f (chi2 %.2f of %d, p %.3f), overlap %.0f %%",
@@ -109,11 +73,8 @@ Result<int> merge_sets(const MergeRequest& request) {
   if (!pose) return pose.error();
   PatchMap map = *a;
   if (map.frame.empty()) map.frame = b->frame;
-  if (const std::string id = seen_before(map, *set_b); !id.empty()) {
-    return Error{ErrorCode::usage,
-                 called(request.b) + ": patch \"" + id + "\" is in " + called(request.a) +
-                     " already, from the same source; a sight counts once, so leave it out."};
-  }
+  const Result<void> unseen = check_unseen(map, *set_b, called(request.a), called(request.b));
+  if (!unseen) return unseen.error();
   const View view = view_of(*set_b, *pose);
   const Association found = associate(patches_of(map), view.patches, *pose, {.gate = request.gate});
   report(found, map, view);

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 struct ReplayRequest {
   std::string journal;
-  std::string output;
+  std::string output, map;
   std::vector<std::string> exports;  // FORMAT=FILE
   std::string on;
   bool json = false;
@@ -41,9 +41,16 @@ Result<std::vector<Export>> parse_exports(const std::vector<std::string>& texts)
 }
 
 Result<void> check_outputs(const ReplayRequest& request, const std::vector<Export>& exports) {
-  std::vector<fs::path> files = {request.output, request.json ? "-" : ""};
+  std::vector<fs::path> files = {request.output, request.map, request.json ? "-" : ""};
   for (const Export& one : exports) files.push_back(one.file);
   return Outputs::check(files);
+}
+
+// The one map of a document as text; usage error where it has none, or several.
+Result<std::string> text_of_map(const Document& document) {
+  if (document.maps.size() == 1) return write_patch_set(*document.maps.front().set);
+  return Error{ErrorCode::usage, "--map takes the one map of a document, and this journal leaves " +
+                                     std::to_string(document.maps.size()) + "."};
 }
 
 Result<int> replay_journal(const ReplayRequest& request) {
@@ -62,6 +69,11 @@ Result<int> replay_journal(const ReplayRequest& request) {
   if (!text) return text.error();
   Outputs outputs;
   if (!request.output.empty()) outputs.add(request.output, *text);
+  if (!request.map.empty()) {
+    const Result<std::string> map = text_of_map(*document);
+    if (!map) return map.error();
+    outputs.add(request.map, *map);
+  }
   std::vector<std::string> notices;
   const ExportOptions with_points{.measured = measured_points(*document)};
   for (const auto& [format, file] : *exports) {
@@ -71,7 +83,8 @@ Result<int> replay_journal(const ReplayRequest& request) {
     outputs.add(file, std::move(*exported));
   }
   if (request.json) outputs.add("-", *text);
-  if (!request.json && request.output.empty() && exports->empty()) {
+  const bool writes = !request.output.empty() || !request.map.empty() || !exports->empty();
+  if (!request.json && !writes) {
     std::string tables;
     for (const PatchEntry& patch : document->patches) tables += fit_table(*document, patch);
     outputs.add("-", std::move(tables));
@@ -87,6 +100,7 @@ Action set_up_replay(CLI::App& app) {
   const auto request = std::make_shared<ReplayRequest>();
   app.add_option("journal", request->journal, "a journal; - is standard input")->required();
   app.add_option("-o,--output", request->output, "write the patch set; - is standard output");
+  app.add_option("--map", request->map, "write the map that its merges made, as map merge does");
   app.add_option("--export", request->exports, "FORMAT=FILE, once for each; see patchlab help formats")
       ->allow_extra_args(false)
       ->expected(1)

@@ -92,4 +92,42 @@ PatchSet set_of(const PatchMap& map, const PatchSet& set, const PatchSet& added)
   return out;
 }
 
+View view_of(const PatchSet& set, const UncertainPose& map_from_view) {
+  View view{{}, {}, {}, map_from_view};
+  for (const PatchRecord& record : set.patches) {
+    view.sources.push_back(record.source);
+    view.ids.push_back(record.id);
+    view.patches.push_back(record.patch);
+  }
+  return view;
+}
+
+void rename_sources(const PatchSet& map, PatchSet& view) {
+  for (PatchSource& source : view.sources) {
+    const std::string old = source.id;
+    for (const PatchSource& other : map.sources) {
+      if (other.id == source.id && other.sha256 != source.sha256)
+        source.id += "@" + source.sha256.substr(0, 8);
+    }
+    for (PatchRecord& record : view.patches) {
+      if (record.source == old) record.source = source.id;
+    }
+  }
+}
+
+Result<void> check_unseen(const PatchMap& map, const PatchSet& view, const std::string& map_name,
+                          const std::string& view_name) {
+  for (const MapPatch& patch : map.patches) {
+    for (const Observation& seen : patch.observations) {
+      for (const PatchRecord& record : view.patches) {
+        if (record.source.empty() || record.source != seen.source || record.id != seen.id) continue;
+        return Error{ErrorCode::usage,
+                     view_name + ": patch \"" + record.id + "\" is in " + map_name +
+                         " already, from the same source; a sight counts once, so leave it out."};
+      }
+    }
+  }
+  return {};
+}
+
 }  // namespace patchlab

@@ -21,4 +21,12 @@ Result<PatchMap> map_of(const PatchSet& set, const std::string& name);
 // that are not in the set yet are taken from `added` by the source and id of their first observation.
 PatchSet set_of(const PatchMap& map, const PatchSet& set, const PatchSet& added);
 
+// The patches of a set as a view to merge, and what has to hold before: its sources have ids of their own
+// where those of the map mean other scans, and none of its sights is in the map already.
+View view_of(const PatchSet& set, const UncertainPose& map_from_view);
+void rename_sources(const PatchSet& map, PatchSet& view);
+// usage error that names the first sight which the map holds: a sight counts once.
+Result<void> check_unseen(const PatchMap& map, const PatchSet& view, const std::string& map_name,
+                          const std::string& view_name);
+
 }  // namespace patchlab

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,19 +23,37 @@ namespace patchlab {
 
 enum class JointKind { fixed, turning, sliding };
 
+struct JointLimits {
+  double lower = 0.0, upper = 0.0;  // rad, or m of a sliding joint
+};
+
 struct RobotJoint {
   std::string name, parent, child;  // of links
   JointKind kind = JointKind::fixed;
   Pose parent_from_joint;
   Vector3d axis = Vector3d::UnitX();  // unit, in the joint's frame
   std::string driver;  // the joint whose value moves this one: itself, or the one that it mimics
-  double multiplier = 1.0, offset = 0.0;  // q = multiplier q_driver + offset
+  double multiplier = 1.0, offset = 0.0;   // q = multiplier q_driver + offset
+  std::optional<JointLimits> limits = {};  // none: it turns as far as one likes
+};
+
+// What a link looks like: for pictures alone.
+enum class LinkShapeKind { box, cylinder, sphere, mesh };
+struct LinkShape {
+  std::string link;
+  LinkShapeKind kind = LinkShapeKind::box;
+  Pose link_from_shape;
+  // m: sides of a box; radius, radius and length (along z) of a cylinder; radius of a sphere, three times. Of
+  // a mesh the scale.
+  Vector3d size = Vector3d::Ones();
+  std::string file = {};  // of a mesh, as the URDF names it
 };
 
 struct Robot {
   std::string name, base;  // the root link
   std::vector<std::string> links;
-  std::vector<RobotJoint> joints;  // parents before children
+  std::vector<RobotJoint> joints;      // parents before children
+  std::vector<LinkShape> shapes = {};  // visual ones; of a link without any, those that it collides with
 };
 
 // URDF: fixed, revolute, continuous and prismatic joints, also those that mimic others. unreadable error with

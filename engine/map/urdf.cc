@@ -2,15 +2,18 @@
 #include <tinyxml.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <set>
 
 #include "engine/base/printable.h"
 #include "engine/map/robot.h"
+#include "engine/map/urdf_parts.h"
 
 namespace patchlab {
 namespace {
@@ -123,19 +126,6 @@ urdf::ModelInterfaceSharedPtr parsed(const std::string& text, std::string& probl
   return model;
 }
 
-Vector3d vector(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
-
-Pose pose_of(const urdf::Pose& pose) {
-  double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
-  pose.rotation.getQuaternion(x, y, z, w);
-  const Eigen::Vector4d q = Eigen::Vector4d(x, y, z, w).normalized();
-  const Vector3d v = q.head<3>();
-  // R of the unit quaternion (v, w).
-  const Matrix3d R =
-      (2.0 * q[3] * q[3] - 1.0) * Matrix3d::Identity() + 2.0 * (v * v.transpose() + q[3] * skew(v));
-  return {log_map(R), vector(pose.position)};
-}
-
 struct Kind {
   int urdf;
   JointKind kind;
@@ -161,13 +151,14 @@ RobotJoint joint_of(const urdf::Joint& from, std::string& problem) {
   }
   joint.kind = kind->kind;
   joint.parent_from_joint = pose_of(from.parent_to_joint_origin_transform);
-  const Vector3d axis = vector(from.axis);
+  const Vector3d axis(from.axis.x, from.axis.y, from.axis.z);
   const bool moves = joint.kind != JointKind::fixed;
   if (!joint.parent_from_joint.vector().allFinite() || (moves && !(axis.norm() > 1e-9 && axis.allFinite()))) {
     problem = "joint \"" + from.name + "\" has an axis of no length, or a number that is not finite";
     return joint;
   }
   if (moves) joint.axis = axis.normalized();
+  joint.limits = limits_of(from);
   if (moves && from.mimic) {
     joint.driver = from.mimic->joint_name;
     joint.multiplier = from.mimic->multiplier;
@@ -202,6 +193,7 @@ void resolve_mimics(Robot& robot, std::string& problem) {
 
 void add_children(Robot& robot, const urdf::Link& link, std::string& problem) {
   robot.links.push_back(link.name);
+  std::ranges::move(shapes_of(link), std::back_inserter(robot.shapes));
   for (const auto& child : link.child_links) {
     robot.joints.push_back(joint_of(*child->parent_joint, problem));
     add_children(robot, *child, problem);
@@ -224,7 +216,7 @@ Result<Robot> read_urdf(std::string_view text, const std::string& name) {
     return wrong("this is no robot (" + (problem.empty() ? "no root link" : problem) + ")");
   if (model->links_.size() > most_links)
     return wrong("it has more than " + std::to_string(most_links) + " links");
-  Robot robot{model->getName(), model->getRoot()->name, {}, {}};
+  Robot robot{model->getName(), model->getRoot()->name, {}, {}, {}};
   add_children(robot, *model->getRoot(), problem);
   resolve_mimics(robot, problem);
   if (!problem.empty()) return wrong(problem);

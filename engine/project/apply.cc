@@ -8,6 +8,7 @@
 #include "engine/fit/fit_patch.h"
 #include "engine/io/read_scan.h"
 #include "engine/project/command.h"
+#include "engine/project/map_commands.h"
 #include "engine/region/grow.h"
 #include "engine/region/observe.h"
 
@@ -80,9 +81,7 @@ Result<NoiseModel> noise_for(const Scan& scan, const std::string& specification)
 
 Result<void> run(OpenScan& open, Document& document, const ApplyOptions& options) {
   if (open.id.empty()) open.id = free_id(document, "scan");
-  const bool known =
-      find_scan(document, open.id) || find_region(document, open.id) || find_patch(document, open.id);
-  if (known) return taken(open.id);
+  if (is_taken(document, open.id)) return taken(open.id);
   if (options.on && !document.scans.empty()) {
     return wrong("Another scan can stand in for one scan only, and this is the second.");
   }
@@ -162,7 +161,8 @@ Result<void> run(Select& select, Document& document, const ApplyOptions& options
   const ScanEntry* scan = find_scan(document, select.scan);
   if (scan == nullptr) return unknown("scan", select.scan);
   if (select.region.empty()) select.region = free_id(document, "region");
-  if (find_scan(document, select.region) || find_patch(document, select.region)) return taken(select.region);
+  const bool is_other = is_taken(document, select.region) && !find_region(document, select.region);
+  if (is_other) return taken(select.region);
   std::size_t hidden = 0;
   Result<Ids> ids = selected(select, *scan, options, hidden);
   if (!ids) return ids.error();
@@ -230,7 +230,7 @@ Result<void> run(Fit& fit, Document& document, const ApplyOptions& options) {
   const RegionEntry* region = find_region(document, fit.region);
   if (region == nullptr) return unknown("region", fit.region);
   if (fit.patch.empty()) fit.patch = free_id(document, "patch");
-  if (find_scan(document, fit.patch) || find_region(document, fit.patch)) return taken(fit.patch);
+  if (is_taken(document, fit.patch) && !find_patch(document, fit.patch)) return taken(fit.patch);
   PatchEntry& patch = find_or_add(document.patches, fit.patch);
   patch.scan = region->scan;
   patch.region = region->id;
@@ -272,8 +272,12 @@ Result<void> with_entry(Document& document, const std::string& id, Change change
     change(*region);
   } else if (PatchEntry* patch = find(document.patches, id)) {
     change(*patch);
+  } else if (MapEntry* map = find(document.maps, id)) {
+    change(*map);
+  } else if (RobotEntry* robot = find(document.robots, id)) {
+    change(*robot);
   } else {
-    return unknown("scan, region or patch", id);
+    return unknown("scan, region, patch, map or robot", id);
   }
   return {};
 }
@@ -291,8 +295,9 @@ Result<void> run(Delete& erase, Document& document, const ApplyOptions&) {
   const auto of_gone_scan = [&](const auto& entry) { return entry.scan == erase.target || gone(entry); };
   const std::size_t erased = std::erase_if(document.scans, gone) +
                              std::erase_if(document.regions, of_gone_scan) +
-                             std::erase_if(document.patches, of_gone_scan);
-  if (erased == 0) return unknown("scan, region or patch", erase.target);
+                             std::erase_if(document.patches, of_gone_scan) +
+                             std::erase_if(document.maps, gone) + std::erase_if(document.robots, gone);
+  if (erased == 0) return unknown("scan, region, patch, map or robot", erase.target);
   return {};
 }
 
@@ -317,6 +322,15 @@ Result<Document> apply(const Document& before, Command& command, const ApplyOpti
   const Result<void> done = std::visit([&](auto& one) { return run(one, after, options); }, command);
   if (!done) return done.error();
   return after;
+}
+
+std::vector<std::string*> files_of(Command& command) {
+  std::vector<std::string*> files;
+  if (auto* scan = std::get_if<OpenScan>(&command)) files = {&scan->file};
+  if (auto* map = std::get_if<OpenMap>(&command)) files = {&map->file};
+  if (auto* robot = std::get_if<OpenRobot>(&command)) files = {&robot->file, &robot->joints, &robot->patches};
+  std::erase_if(files, [](const std::string* file) { return file->empty(); });
+  return files;
 }
 
 std::string result_hash(const FitResult& fit) {

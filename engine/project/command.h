@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -61,8 +62,39 @@ struct Fit {
   FitOptions options = {};
   std::string result_sha256 = {};  // hash of the result; checked on replay where present
 };
+// Files are relative to the journal where it has one. Their sha256 are empty where they are not known yet,
+// and filled in when the command is applied.
+struct OpenMap {
+  std::string id;  // a new one
+  std::string file, sha256 = {};
+};
+// Without joint values every joint starts at zero, or as near to it as its limits let it, known exactly.
+struct OpenRobot {
+  std::string id;    // a new one
+  std::string file;  // URDF
+  std::string sha256 = {};
+  std::string joints = {}, joints_sha256 = {};    // may be empty
+  std::string patches = {}, patches_sha256 = {};  // may be empty
+};
+struct SetJoint {
+  std::string robot, joint;
+  double value = 0.0;                // rad, or m of a sliding joint
+  std::optional<double> sigma = {};  // stays as it is without it
+};
+// Hangs a frame in another, or hangs it there anew.
+struct Place {
+  std::string frame, in;
+  UncertainPose pose;  // in_from_frame
+};
+// Brings the patches of `view` (another map, which is then gone, or a scan) into a map, a new one where there
+// is none of that name: patches that both see are fused, but for the pairs refused; the others are added.
+struct Merge {
+  std::string map, view;
+  double gate = 0.95;                                    // as AssociateOptions
+  std::vector<std::array<std::string, 2>> refused = {};  // ids of patches: map, view
+};
 struct Rename {
-  std::string target, name;  // a scan, region or patch id
+  std::string target, name;  // an id
 };
 // With a scan go its regions and patches; a patch stays when its region goes.
 struct Delete {
@@ -75,7 +107,11 @@ struct Show {
 struct Undo {};
 struct Redo {};
 
-using Command = std::variant<OpenScan, SetNoise, Select, Reshape, Fit, Rename, Delete, Show, Undo, Redo>;
+using Command = std::variant<OpenScan, SetNoise, Select, Reshape, Fit, OpenMap, OpenRobot, SetJoint, Place,
+                             Merge, Rename, Delete, Show, Undo, Redo>;
+
+// The files that a command names, to name them anew where the journal moves; empty ones are left out.
+std::vector<std::string*> files_of(Command& command);
 
 // One line of a journal, and back. unreadable error: `name` (where it stands), and the member that is wrong.
 nlohmann::ordered_json to_json(const Command& command);

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "engine/project/command.h"
+#include "engine/project/map_commands.h"
 #include "engine/project/parts_json.h"
 
 namespace patchlab {
@@ -231,6 +232,11 @@ constexpr Verb verbs[] = {
     {"select", read_command<Select>},
     {"reshape", read_command<Reshape>},
     {"fit", read_command<Fit>},
+    {"open_map", read_command<OpenMap>},
+    {"open_robot", read_command<OpenRobot>},
+    {"set_joint", read_command<SetJoint>},
+    {"place", read_command<Place>},
+    {"merge", read_command<Merge>},
     {"rename", read_command<Rename>},
     {"delete", read_command<Delete>},
     {"show", read_command<Show>},

@@ -1,3 +1,5 @@
+#include <cstdio>
+
 #include "engine/project/command.h"
 
 namespace patchlab {
@@ -18,6 +20,8 @@ std::string called(const Document& document, const std::string& id) {
   if (const ScanEntry* scan = find_scan(document, id)) return scan->name;
   if (const RegionEntry* region = find_region(document, id)) return region->name;
   if (const PatchEntry* patch = find_patch(document, id)) return patch->name;
+  if (const MapEntry* map = find_map(document, id)) return map->name;
+  if (const RobotEntry* robot = find_robot(document, id)) return robot->name;
   return id;
 }
 
@@ -55,6 +59,31 @@ std::string spell(const Fit& fit, const Document& after) {
     if (letter == '_') letter = ' ';
   }
   return "fit " + called(after, fit.patch) + " · " + surface + points(result.report.points);
+}
+
+std::string patches(std::size_t count) {
+  return " · " + with_commas(count) + (count == 1 ? " patch" : " patches");
+}
+
+std::string spell(const OpenMap& open, const Document& after) {
+  return "open " + called(after, open.id) + patches(find_map(after, open.id)->map->patches.size());
+}
+
+std::string spell(const OpenRobot& open, const Document& after) {
+  return "open " + called(after, open.id) + patches(find_robot(after, open.id)->model->patches.size());
+}
+
+std::string spell(const SetJoint& set, const Document&) {
+  char value[32];
+  std::snprintf(value, sizeof value, "%.3f", set.value);
+  return "move " + set.joint + " · " + value;
+}
+
+std::string spell(const Place& place, const Document&) { return "place " + place.frame + " in " + place.in; }
+
+std::string spell(const Merge& merge, const Document& after) {
+  return "merge " + called(after, merge.view) + " into " + called(after, merge.map) +
+         patches(find_map(after, merge.map)->map->patches.size());
 }
 
 std::string spell(const Rename& rename, const Document&) {

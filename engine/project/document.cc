@@ -29,7 +29,7 @@ PatchRecord record(const Document& document, const PatchEntry& entry, const std:
   record.id = entry.id;
   record.name = entry.name;
   record.source = entry.scan;
-  record.frame_id = is_identity(find_scan(document, entry.scan)->scan->viewpoint) ? "sensor" : "world";
+  record.frame_id = frame_of(*find_scan(document, entry.scan));
   record.patch = entry.fit->patch;
   record.fit = FitSummary(entry.fit->report);
   record.provenance = {{"region", entry.region}};
@@ -49,13 +49,24 @@ const PatchEntry* find_patch(const Document& document, const std::string& id) {
   return find(document.patches, id);
 }
 
+const MapEntry* find_map(const Document& document, const std::string& id) { return find(document.maps, id); }
+const RobotEntry* find_robot(const Document& document, const std::string& id) {
+  return find(document.robots, id);
+}
+
+bool is_taken(const Document& document, const std::string& id) {
+  return find_scan(document, id) || find_region(document, id) || find_patch(document, id) ||
+         find_map(document, id) || find_robot(document, id);
+}
+
 std::string free_id(const Document& document, const std::string& stem) {
   for (int number = 1;; ++number) {
-    const std::string id = stem + "-" + std::to_string(number);
-    const bool taken = find_scan(document, id) || find_region(document, id) || find_patch(document, id);
-    if (!taken) return id;
+    std::string id = stem + "-" + std::to_string(number);
+    if (!is_taken(document, id)) return id;
   }
 }
+
+std::string frame_of(const ScanEntry& scan) { return is_identity(scan.scan->viewpoint) ? "sensor" : "world"; }
 
 PatchSet patch_set(const Document& document, const std::string& journal) {
   PatchSet set;

@@ -79,7 +79,7 @@ TEST_F(ReplayVerb, EndsWithStatusThreeForACommandThatCannotBe) {
         journal(sha256(ball_table())) + "{\"do\": \"delete\", \"target\": \"patch-7\"}\n");
   const Outcome outcome = patchlab("replay work/ball.patchlab");
   EXPECT_EQ(outcome.status, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("line 6: There is no scan, region or patch 'patch-7'"));
+  EXPECT_THAT(outcome.err, HasSubstr("line 6: There is no scan, region, patch, map or robot 'patch-7'"));
 }
 
 TEST_F(ReplayVerb, UndoesAndRedoes) {

@@ -5,6 +5,7 @@
 #include <ctime>
 #include <utility>
 
+#include "viewer/app/boxes.h"
 #include "viewer/app/journal_file.h"
 #include "viewer/app/point_shades.h"
 #include "viewer/panel/numbers.h"
@@ -34,13 +35,21 @@ std::string short_path(const std::filesystem::path& path) {
 }
 
 bool exists(const Document& document, const std::string& id) {
-  return find_scan(document, id) || find_region(document, id) || find_patch(document, id);
+  return is_taken(document, id) || find_placed(document, id);
 }
 
 std::string newest(const Document& document) {
   if (!document.patches.empty()) return document.patches.back().id;
   if (!document.regions.empty()) return document.regions.back().id;
-  return document.scans.empty() ? std::string() : document.scans.back().id;
+  if (!document.scans.empty()) return document.scans.back().id;
+  if (!document.robots.empty()) return document.robots.back().id;
+  return document.maps.empty() ? std::string() : document.maps.back().id;
+}
+
+std::string title_of(const Document& document) {
+  if (!document.scans.empty()) return document.scans.back().name + " - patchlab";
+  if (!document.robots.empty()) return document.robots.back().name + " - patchlab";
+  return document.maps.empty() ? "patchlab" : document.maps.back().name + " - patchlab";
 }
 
 }  // namespace
@@ -124,6 +133,8 @@ void App::collect() {
   state_.fit_runs = workbench_.fit_runs();
   state_.busy = workbench_.busy();
   if (workbench_.changes() != seen_changes_) show_new_document();
+  answer_questions();
+  propose();
 }
 
 void App::show_new_document() {
@@ -140,12 +151,18 @@ void App::show_new_document() {
   if (std::exchange(state_.journal, journal) != journal) find_earlier_work();
   const Document& document = workbench_.document();
   if (!exists(document, state_.selected)) state_.selected = newest(document);
-  platform_.set_title(document.scans.empty() ? "patchlab" : document.scans.back().name + " - patchlab");
+  platform_.set_title(title_of(document));
   if (!workbench_.shows_glimpse()) {
     make_shades();
     ask_for_unit();
   }
   if (!document.scans.empty() && camera_of_ != document.scans.back().scan) set_up_camera();
+  const bool has_no_scan = document.scans.empty() && box_of(document);
+  if (has_no_scan && !looks_at_all_) {
+    stage_.oblique_view(document, aspect());
+    stage_.settle();
+  }
+  looks_at_all_ = has_no_scan;
 }
 
 void App::set_up_camera() {

@@ -74,6 +74,9 @@ class App {
   void ask_for_unit();
   void show_measured();
   void find_earlier_work();
+  // questions.cc
+  void answer_questions();
+  void propose();
   void draw();
   void toast(const std::string& text, bool is_error);
   // picture.cc
@@ -114,6 +117,7 @@ class App {
 
   // requests.cc
   void answer(const Requests& requests);
+  void answer_about_maps(const Requests& requests);
   void act(Action action);
   bool choose(Action action);
   bool act_on_contour_and_fit(Action action);
@@ -157,6 +161,15 @@ class App {
   std::string styled_for_;                                // theme and scale that ImGui's style was made for
   std::shared_ptr<const Scan> camera_of_;                 // what the camera was last set up for
   std::optional<OrbitCamera> glimpsed_from_;              // as it was set up for a first look at a scan
+  bool looks_at_all_ = false;                             // at a document without a scan
+  struct Answered {
+    std::uint64_t changes = 0;
+    std::string patch, other;
+    double limit = 0.0;
+    bool operator==(const Answered&) const = default;
+  };
+  Answered answered_;
+  std::uint64_t proposed_at_ = 0;  // of the document's changes
   std::uint64_t seen_changes_ = 0;
   std::optional<float> wanted_scale_;  // of the interface, from the next frame on
   float chosen_scale_ = 0.0f;          // by the user; 0: none

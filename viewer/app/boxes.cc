@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/mesh/patch_mesh.h"
+#include "viewer/app/map_scene.h"
 
 namespace patchlab::viewer {
 
@@ -40,15 +41,28 @@ std::optional<Bounds> box_of(const Document& document) {
   for (const PatchEntry& entry : document.patches) {
     if (entry.visible && entry.fit) box.add(box_of(document, entry.id));
   }
+  for (const MapEntry& entry : document.maps) {
+    if (entry.visible) box.add(box_of(document, entry.id));
+  }
+  for (const RobotEntry& entry : document.robots) {
+    if (entry.visible) box.add(box_of(document, entry.id));
+  }
   return box.result();
 }
 
 std::optional<Bounds> box_of(const Document& document, const std::string& id) {
   Box box;
   if (const ScanEntry* scan = find_scan(document, id); scan && scan->scan) return bounds(*scan->scan);
-  if (const PatchEntry* patch = find_patch(document, id); patch && patch->fit) {
-    for (const Eigen::Vector3d& point : outline_curve(patch->fit->patch, 64)) box.add(point);
-    box.add(centre(patch->fit->patch));
+  for (const PlacedPatch& placed : placed_patches(document)) {
+    const bool is_of_map = placed.of == PatchOf::map && placed.owner == id;
+    if (placed.id != id && !is_of_map) continue;
+    const Result<Patch> patch = as_shown(document, placed);
+    if (!patch) continue;
+    for (const Eigen::Vector3d& point : outline_curve(*patch, 64)) box.add(point);
+    box.add(centre(*patch));
+  }
+  if (const RobotEntry* robot = find_robot(document, id)) {
+    for (const Eigen::Vector3d& point : points_of_robot(document, *robot)) box.add(point);
   }
   if (const RegionEntry* region = find_region(document, id); region && region->points) {
     const ScanEntry* scan = find_scan(document, region->scan);

@@ -9,8 +9,8 @@
 
 namespace patchlab::viewer {
 
-// Around all visible scans and patches; around one scan, region or patch. Nothing where there is nothing
-// finite.
+// Around everything that is visible; around one entry, or one patch of a map or robot. Nothing where there is
+// nothing finite.
 std::optional<Bounds> box_of(const Document& document);
 std::optional<Bounds> box_of(const Document& document, const std::string& id);
 

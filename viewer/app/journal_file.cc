@@ -130,9 +130,7 @@ Result<void> copy_journal(const fs::path& journal, const fs::path& copy) {
   if (!commands) return commands.error();
   std::string text = journal_header() + "\n";
   for (Command command : *commands) {
-    if (OpenScan* open = std::get_if<OpenScan>(&command)) {
-      open->file = path_for_journal(journal.parent_path() / open->file, copy);
-    }
+    for (std::string* file : files_of(command)) *file = path_for_journal(journal.parent_path() / *file, copy);
     text += to_json(command).dump() + "\n";
   }
   return write_file(copy, text);
@@ -162,14 +160,14 @@ std::optional<ViewCamera> last_lasso_camera(const fs::path& journal) {
   return std::nullopt;
 }
 
-Result<void> export_patches(const Document& document, const fs::path& journal, const std::string& format,
-                            const fs::path& file) {
-  const Result<const ExportFormat*> chosen = export_format(format);
+Result<void> export_patches(const Document& document, const fs::path& journal, const ExportRequest& request) {
+  const Result<const ExportFormat*> chosen = export_format(request.format);
   if (!chosen) return chosen.error();
-  const Result<Exported> exported = patchlab::export_patches(
-      **chosen, patch_set(document, journal.filename().string()), {.measured = measured_points(document)});
+  const PatchSet set = set_to_export(document, request.chosen, journal.filename().string());
+  const Result<Exported> exported =
+      patchlab::export_patches(**chosen, set, {.measured = measured_points(document)});
   if (!exported) return exported.error();
-  return write_exported(*exported, file);
+  return write_exported(*exported, request.file);
 }
 
 }  // namespace patchlab::viewer

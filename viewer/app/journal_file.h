@@ -38,8 +38,8 @@ Result<Session> replayed_session(const std::filesystem::path& journal, const Pro
 // The camera of the last lasso of a journal, where there is one.
 std::optional<ViewCamera> last_lasso_camera(const std::filesystem::path& journal);
 
-// Writes the kept patches in an export format.
+// Writes the kept patches, or those of the chosen map, in an export format.
 Result<void> export_patches(const Document& document, const std::filesystem::path& journal,
-                            const std::string& format, const std::filesystem::path& file);
+                            const ExportRequest& request);
 
 }  // namespace patchlab::viewer

@@ -26,8 +26,8 @@ Result<void> play_log(const std::filesystem::path& file, App& app, Platform& pla
 
 Result<void> export_all(const ViewerOptions& options, App& app) {
   for (const ExportRequest& request : options.exports) {
-    const Result<void> written = export_patches(app.workbench().session().document(),
-                                                app.workbench().journal(), request.format, request.file);
+    const Result<void> written =
+        export_patches(app.workbench().session().document(), app.workbench().journal(), request);
     if (!written) return written;
   }
   return {};

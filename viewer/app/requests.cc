@@ -37,9 +37,23 @@ void App::answer(const Requests& requests) {
   if (requests.picture) save_picture(*requests.picture);
   if (requests.widths) state_.widths = *requests.widths;
   if (requests.save_journal) workbench_.save_journal(*requests.save_journal);
-  if (requests.export_to) workbench_.write_patches(*requests.export_to);
+  if (requests.export_to) {
+    ExportRequest request = *requests.export_to;
+    request.chosen = state_.selected;
+    workbench_.write_patches(request);
+  }
   if (requests.slab) state_.slab = requests.slab;
+  answer_about_maps(requests);
   if (requests.cancel_work) workbench_.cancel_work();
+}
+
+void App::answer_about_maps(const Requests& requests) {
+  if (requests.drag_joint) workbench_.preview_joint(*requests.drag_joint);
+  if (requests.ask_about) state_.questions.other = *requests.ask_about;
+  if (requests.tilt_limit) state_.questions.limit = *requests.tilt_limit;
+  if (!requests.propose) return;
+  state_.proposed = {requests.propose->map, requests.propose->view, nullptr, {}};
+  proposed_at_ = 0;
 }
 
 void App::act(Action action) {
@@ -200,7 +214,8 @@ void App::hide_selected() {
     return entry != nullptr;
   };
   if (turn(find_patch(document, state_.selected)) || turn(find_region(document, state_.selected))) return;
-  turn(find_scan(document, state_.selected));
+  if (turn(find_scan(document, state_.selected)) || turn(find_map(document, state_.selected))) return;
+  turn(find_robot(document, state_.selected));
 }
 
 void App::show_all() {
@@ -213,6 +228,8 @@ void App::show_all() {
   show(document.scans);
   show(document.regions);
   show(document.patches);
+  show(document.maps);
+  show(document.robots);
 }
 
 void App::rename_selected() {
@@ -223,6 +240,10 @@ void App::rename_selected() {
     memory_.new_name = region->name;
   else if (const ScanEntry* scan = find_scan(document, state_.selected))
     memory_.new_name = scan->name;
+  else if (const MapEntry* map = find_map(document, state_.selected))
+    memory_.new_name = map->name;
+  else if (const RobotEntry* robot = find_robot(document, state_.selected))
+    memory_.new_name = robot->name;
   else
     return;
   if (state_.selected != state_.draft) memory_.renaming = state_.selected;

@@ -17,6 +17,7 @@ constexpr double point_share = 1.25;
 constexpr double chosen_share = 0.15;  // of that, where a surface is to be seen between them
 constexpr double chosen_apart = 3.0;   // of the size of a point, from one such to the next
 constexpr double set_back = 2.5;  // of that distance: what noise alone puts before a patch does not hide it
+constexpr double map_set_back = 8.0;  // the same where patches of other sights lie among the points
 constexpr float most_larger = 6.0f;
 constexpr double flight_seconds = 0.22;
 constexpr double sensor_fov = 0.80;  // rad, where the scan does not say its own
@@ -61,6 +62,7 @@ void Stage::update(const Document& document, const ViewState& state, std::uint64
   if (in.scale) notes_.points = {in.scale->title, {in.scale->low, in.scale->high}};
   add_points(in);
   add_patches(in, scale);
+  take(maps_and_robots_.make({document, state, colours, scene_.origin, scale}));
   notes_.residual_colours = state.colours == PointColours::residual && find_patch(document, state.selected);
 }
 
@@ -76,7 +78,8 @@ void Stage::add_points(const PointScene& in) {
                              std::make_shared<const std::vector<Rgba8>>(std::move(colours))});
     if (!spacings_.contains(scan)) spacings_[scan] = point_spacing(*scan);
     drawn_points_.push_back({spacings_[scan], point_share, false});
-    scene_.points.back().set_back = static_cast<float>(set_back * spacings_[scan]);
+    scene_.points.back().set_back =
+        static_cast<float>((in.document.maps.empty() ? set_back : map_set_back) * spacings_[scan]);
     if (!chosen) continue;
     scene_.points.push_back(*chosen);
     const bool thinned = in.state.colours != PointColours::residual;
@@ -233,6 +236,12 @@ void Stage::frame_all(const Document& document, double aspect) {
   OrbitCamera to = target();
   to.frame(box->min, box->max, aspect);
   fly_to(to);
+}
+
+void Stage::oblique_view(const Document& document, double aspect) {
+  constexpr double to_the_right = 0.6, above = 0.3;  // rad
+  look_from(to_the_right, above);
+  frame_all(document, aspect);
 }
 
 void Stage::frame(const Document& document, const std::string& id, double aspect) {

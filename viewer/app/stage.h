@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/project/document.h"
+#include "viewer/app/map_scene.h"
 #include "viewer/app/patch_scene.h"
 #include "viewer/app/point_scene.h"
 #include "viewer/camera/orbit_camera.h"
@@ -36,6 +37,9 @@ class Stage {
   // How far noise spreads the points of a scan, made by the worker for one noise model.
   void set_sigmas(const ScanEntry& entry, Sigmas sigmas);
   bool has_sigmas(const ScanEntry& entry) const;
+
+  // Seen obliquely from above, all of it.
+  void oblique_view(const Document& document, double aspect);
 
   // Cameras. Each flies there in a moment; settle() jumps to the end.
   void look_from(double azimuth, double elevation);  // rad, about the pivot
@@ -106,6 +110,7 @@ class Stage {
   std::vector<DrawnPoints> drawn_points_;  // one an item of the scene
   std::size_t shades_made_ = 0;
   std::map<std::string, KnownSurface> surfaces_;  // by patch id
+  MapScene maps_and_robots_;
   std::optional<Flight> flight_;
 };
 

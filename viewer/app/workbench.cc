@@ -110,6 +110,15 @@ void Workbench::run(Command command) {
   enqueue([this, command = std::move(command)] { run_now(command); });
 }
 
+void Workbench::preview_joint(const SetJoint& set) {
+  Command command = set;
+  Result<Document> moved = apply(document(), command);
+  if (!moved) return;
+  if (!draft_) draft_ = Draft{};
+  draft_->document = std::move(*moved);
+  ++changes_;
+}
+
 void Workbench::undo() {
   enqueue([this] {
     if (!session_.can_undo()) return;

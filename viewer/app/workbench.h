@@ -50,10 +50,12 @@ class Workbench {
   Workbench(WorkbenchOptions options, std::function<void()> wake);
 
   // In the background. A journal (.patchlab) replaces the session: one of the folder of journals is gone on
-  // with, of one from elsewhere a copy there. A scan joins the session, with a new journal where there is
-  // none.
+  // with, of one from elsewhere a copy there. A scan, a patch set or map (.json) or a robot (.urdf, with the
+  // joint values and patches beside it) joins the session, with a new journal where there is none.
   void open(const std::filesystem::path& file, const ScanWishes& wishes = {});
-  void run(Command command);  // quick ones: rename, delete, show
+  void run(Command command);  // quick ones: rename, delete, show, joints, places, merges
+  // The document as it is with the joint there, until a command is run.
+  void preview_joint(const SetJoint& set);
   void undo();
   void redo();
   void go_to(std::size_t position);  // of the history, by undo and redo
@@ -143,10 +145,12 @@ class Workbench {
 
   Result<Session> begin_session(const std::filesystem::path& file, const Progress& progress) const;
   void open_journal(const std::filesystem::path& file);
-  void open_scan(const std::filesystem::path& file, const ScanWishes& wishes);
-  void read_whole(const std::string& words, const OpenScan& command);
+  // `file` is the one that the user named.
+  void open_with(Command command, const std::filesystem::path& file, const std::string& id);
+  void open_scan(const OpenScan& command, const std::filesystem::path& file);
   void show_glimpse(const OpenScan& command, Scan scan);
-  void record_scan(OpenScan command, Document after);
+  void record_opened(Command command, Document after, const std::filesystem::path& file,
+                     const std::string& id);
   void tell_of_earlier_work(const std::filesystem::path& scan);
   Result<void> begin_journal(const std::filesystem::path& scan);
   bool record(const Command& command,

@@ -1,4 +1,7 @@
 // The files of a workbench: scans and journals in, patches and journals out.
+#include <algorithm>
+#include <iterator>
+
 #include "engine/io/glimpse.h"
 #include "engine/io/scan_size.h"
 #include "viewer/app/journal_file.h"
@@ -16,11 +19,60 @@ std::string opening(const std::filesystem::path& file) {
               : words;
 }
 
+std::string whole(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).lexically_normal().string();
+}
+
+OpenScan scan_command(const std::filesystem::path& file, const ScanWishes& wishes) {
+  OpenScan command;
+  command.file = whole(file);
+  command.unit = wishes.unit;
+  command.intrinsics = wishes.intrinsics;
+  command.depth_scale = wishes.depth_scale;
+  return command;
+}
+
+// walker.urdf, with walker.joints.json or .csv and walker.patches.json where they lie beside it.
+OpenRobot robot_command(const std::filesystem::path& file) {
+  OpenRobot command;
+  command.file = whole(file);
+  const auto beside = [&](const char* ending) {
+    const std::filesystem::path other = std::filesystem::path(command.file).replace_extension(ending);
+    std::error_code ignored;
+    return std::filesystem::exists(other, ignored) ? other.string() : std::string();
+  };
+  command.joints = beside(".joints.json");
+  if (command.joints.empty()) command.joints = beside(".joints.csv");
+  command.patches = beside(".patches.json");
+  return command;
+}
+
+std::vector<std::string> notices_of(const Document& document, const std::string& id) {
+  const ScanEntry* scan = find_scan(document, id);
+  if (scan && scan->scan) return scan->scan->notices;
+  const RobotEntry* robot = find_robot(document, id);
+  return robot ? robot->model->notices : std::vector<std::string>();
+}
+
 }  // namespace
 
 void Workbench::open(const std::filesystem::path& file, const ScanWishes& wishes) {
   enqueue([this, file, wishes] {
-    file.extension() == ".patchlab" ? open_journal(file) : open_scan(file, wishes);
+    const std::string kind = file.extension().string();
+    const Document& document = session_.document();
+    if (kind == ".patchlab") return open_journal(file);
+    if (kind == ".urdf") {
+      OpenRobot command = robot_command(file);
+      command.id = free_id(document, "robot");
+      return open_with(command, file, command.id);
+    }
+    if (kind == ".json") {
+      const std::string id = free_id(document, "map");
+      return open_with(OpenMap{.id = id, .file = whole(file)}, file, id);
+    }
+    OpenScan command = scan_command(file, wishes);
+    command.id = free_id(document, "scan");
+    open_scan(command, file);
   });
 }
 
@@ -60,34 +112,28 @@ void Workbench::open_journal(const std::filesystem::path& file) {
   });
 }
 
-void Workbench::open_scan(const std::filesystem::path& file, const ScanWishes& wishes) {
-  OpenScan command;
-  command.id = free_id(session_.document(), "scan");
-  command.file = std::filesystem::absolute(file).lexically_normal().string();
-  command.unit = wishes.unit;
-  command.intrinsics = wishes.intrinsics;
-  command.depth_scale = wishes.depth_scale;
-  const std::string words = opening(file);
-  order(words, [this, command, words](const Progress& progress) -> Worker::Finish {
-    auto first = std::make_shared<std::optional<Scan>>(glimpse_scan(command.file, {.unit = command.unit}));
-    if (!keep_going(progress, 0.0)) return {};
-    return [this, command, words, first] {
-      if (*first) show_glimpse(command, std::move(**first));
-      read_whole(words, command);
-    };
-  });
+void Workbench::open_with(Command command, const std::filesystem::path& file, const std::string& id) {
+  order(opening(file),
+        [this, command, file, id, before = session_.document()](const Progress& progress) -> Worker::Finish {
+          Command wanted = command;
+          auto after = std::make_shared<Result<Document>>(apply(before, wanted, with_progress(progress)));
+          return [this, wanted, after, file, id] {
+            if (*after) return record_opened(wanted, std::move(**after), file, id);
+            report(after->error());
+            if (!shows_glimpse()) return;
+            drop_draft();
+            refit_open_region();
+          };
+        });
 }
 
-void Workbench::read_whole(const std::string& words, const OpenScan& command) {
-  order(words, [this, command, before = session_.document()](const Progress& progress) -> Worker::Finish {
-    Command wanted = command;
-    auto after = std::make_shared<Result<Document>>(apply(before, wanted, with_progress(progress)));
-    return [this, wanted, after] {
-      if (*after) return record_scan(std::get<OpenScan>(wanted), std::move(**after));
-      report(after->error());
-      if (!shows_glimpse()) return;
-      drop_draft();
-      refit_open_region();
+void Workbench::open_scan(const OpenScan& command, const std::filesystem::path& file) {
+  order(opening(file), [this, command, file](const Progress& progress) -> Worker::Finish {
+    auto first = std::make_shared<std::optional<Scan>>(glimpse_scan(command.file, {.unit = command.unit}));
+    if (!keep_going(progress, 0.0)) return {};
+    return [this, command, file, first] {
+      if (*first) show_glimpse(command, std::move(**first));
+      open_with(command, file, command.id);
     };
   });
 }
@@ -102,20 +148,17 @@ void Workbench::show_glimpse(const OpenScan& command, Scan scan) {
       {command.id, name, {}, std::make_shared<const Scan>(std::move(scan)), noise, true});
 }
 
-void Workbench::record_scan(OpenScan command, Document after) {
+void Workbench::record_opened(Command command, Document after, const std::filesystem::path& file,
+                              const std::string& id) {
   if (options_.keep_journals && session_.journal().empty()) {
-    if (const Result<void> begun = begin_journal(command.file); !begun) {
+    if (const Result<void> begun = begin_journal(file); !begun) {
       report(begun.error());
       notices_.push_back("Nothing is being saved: the journal cannot be written.");
     }
-    tell_of_earlier_work(command.file);
+    tell_of_earlier_work(file);
   }
-  command.file = session_.scan_file(command.file);
-  const std::string id = command.id;
-  for (const ScanEntry& entry : after.scans) {
-    if (entry.id != id || !entry.scan) continue;
-    notices_.insert(notices_.end(), entry.scan->notices.begin(), entry.scan->notices.end());
-  }
+  for (std::string* named : files_of(command)) *named = session_.scan_file(*named);
+  std::ranges::copy(notices_of(after, id), std::back_inserter(notices_));
   if (record(command, std::move(after))) selection_ = id;
 }
 
@@ -142,7 +185,7 @@ void Workbench::write_patches(const ExportRequest& request) {
     order("exporting",
           [this, request, document = session_.document(),
            journal = journal()](const Progress&) -> Worker::Finish {
-            const Result<void> written = export_patches(document, journal, request.format, request.file);
+            const Result<void> written = export_patches(document, journal, request);
             return [this, written, request] {
               if (!written) return report(written.error());
               notices_.push_back("The patches are in " + request.file.string() + ".");

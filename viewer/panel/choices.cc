@@ -126,7 +126,7 @@ bool is_possible(Action action, const Document& document, const ViewState& state
     case Action::redo:
       return state.can_redo;
     case Action::export_patches:
-      return has_kept_patch(document, state.draft);
+      return has_kept_patch(document, state.draft) || !document.maps.empty();
     case Action::save_journal_as:
       return !state.journal.empty();
     case Action::invert:
@@ -136,11 +136,13 @@ bool is_possible(Action action, const Document& document, const ViewState& state
       return !state.drawing &&
              (find_region(document, state.selected) || find_patch(document, state.selected));
     case Action::show_all:
-      return any_hidden(document.scans) || any_hidden(document.regions) || any_hidden(document.patches);
+      return any_hidden(document.scans) || any_hidden(document.regions) || any_hidden(document.patches) ||
+             any_hidden(document.maps) || any_hidden(document.robots);
     case Action::hide:
-      return !state.selected.empty() && state.selected != state.draft;
+      return is_taken(document, state.selected) && state.selected != state.draft;
     case Action::remove:
     case Action::rename:
+      return is_taken(document, state.selected);
     case Action::frame_selection:
       return !state.selected.empty();
     case Action::keep:
@@ -148,9 +150,11 @@ bool is_possible(Action action, const Document& document, const ViewState& state
              state.currency == Currency::preview;
     case Action::last_vertex:
       return state.drawing;
-    case Action::home:
     case Action::noise:
     case Action::sensor_view:
+    case Action::colour_noise:
+      return !document.scans.empty();
+    case Action::home:
     case Action::view_right:
     case Action::view_top:
     case Action::view_front:
@@ -158,8 +162,7 @@ bool is_possible(Action action, const Document& document, const ViewState& state
     case Action::view_left:
     case Action::view_below:
     case Action::view_back:
-    case Action::colour_noise:
-      return !document.scans.empty();
+      return !document.scans.empty() || !document.maps.empty() || !document.robots.empty();
     case Action::colour_photo:
       return any_scan_has(document, &Scan::colours);
     case Action::colour_label:

@@ -25,7 +25,7 @@ struct PurposeWords {
 };
 const PurposeWords& words(FilePurpose purpose) {
   static constexpr PurposeWords table[] = {
-      {"Open a scan or a journal", "Open", "type a path, or a part of a name"},
+      {"Open a scan, a map, a robot or a journal", "Open", "type a path, or a part of a name"},
       {"Save a copy of the journal", "Save", "file name"},
       {"Export the patches", "Export", "file name"},
       {"Save a picture", "Save", "file name"},

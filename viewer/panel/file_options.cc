@@ -20,15 +20,14 @@ Document without_draft(const Document& document, const std::string& draft) {
   return kept;
 }
 
-std::string patch_words(const Document& document) {
-  std::string words =
-      count(document.patches.size()) + (document.patches.size() == 1 ? " patch: " : " patches: ");
-  for (std::size_t i = 0; i < std::min(document.patches.size(), names_shown); ++i) {
-    const PatchEntry& entry = document.patches[i];
-    words += (i > 0 ? ", " : "") + entry.name;
-    if (entry.fit) words += " (" + short_surface_words(entry.fit->patch.type->surface) + ")";
+std::string patch_words(const PatchSet& set) {
+  std::string words = count(set.patches.size()) + (set.patches.size() == 1 ? " patch: " : " patches: ");
+  for (std::size_t i = 0; i < std::min(set.patches.size(), names_shown); ++i) {
+    const PatchRecord& record = set.patches[i];
+    words += (i > 0 ? ", " : "") + (record.name.empty() ? record.id : record.name) + " (" +
+             short_surface_words(record.patch.type->surface) + ")";
   }
-  if (document.patches.size() > names_shown) words += ", \u2026";
+  if (set.patches.size() > names_shown) words += ", \u2026";
   return words;
 }
 
@@ -50,9 +49,9 @@ std::vector<std::string> first_lines(const std::string& bytes) {
 void FileDialog::make_preview(const PanelInput& in) {
   if (preview_of_ == static_cast<int>(format_)) return;
   preview_of_ = static_cast<int>(format_);
-  const Document document = without_draft(in.document, in.state.draft);
-  const Result<Exported> made = export_formats()[format_].write(patch_set(document), {});
-  preview_ = {patch_words(document)};
+  const PatchSet set = set_to_export(without_draft(in.document, in.state.draft), in.state.selected, {});
+  const Result<Exported> made = export_formats()[format_].write(set, {});
+  preview_ = {patch_words(set)};
   if (!made) {
     preview_.push_back(made.error().message);
     return;

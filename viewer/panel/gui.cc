@@ -181,6 +181,24 @@ float button_width(const Gui& gui, std::string_view text, std::string_view key) 
   return text_size(gui.fonts.body, text).x + hint + gui.px(20);
 }
 
+bool slider(const Gui& gui, const char* name, double& part) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = gui.px(22), edge = gui.px(7);
+  ImGui::InvisibleButton(name, {width, height});
+  gui.note(name);
+  const bool held = ImGui::IsItemActive(), lit = held || ImGui::IsItemHovered();
+  const float reach = width - 2 * edge, left = at.x + edge, y = at.y + height / 2;
+  if (held) part = std::clamp((ImGui::GetIO().MousePos.x - left) / reach, 0.0f, 1.0f);
+  const float x = left + static_cast<float>(part) * reach, line = gui.px(2),
+              radius = gui.px(lit ? 7.0f : 6.0f);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({left, y - line}, {left + reach, y + line}, u32(gui.theme.pressed), line);
+  draw.AddRectFilled({left, y - line}, {x, y + line}, u32(gui.theme.accent), line);
+  draw.AddCircleFilled({x, y}, radius, u32(gui.theme.accent), 24);
+  draw.AddCircleFilled({x, y}, radius - gui.px(2), u32(lit ? gui.theme.accent : gui.theme.panel), 24);
+  return held;
+}
+
 bool button(const Gui& gui, const char* name, std::string_view text, const ButtonLook& look) {
   const Theme& theme = gui.theme;
   const ImVec2 size = {button_width(gui, text, look.key), gui.px(28)};

@@ -77,6 +77,9 @@ struct ButtonLook {
   bool strong = false;  // the one that Enter would press
 };
 bool button(const Gui& gui, const char* name, std::string_view text, const ButtonLook& look = {});
+// A slider over the width that is left; `part`, in [0, 1], follows the pointer. Returns true while it is
+// held.
+bool slider(const Gui& gui, const char* name, double& part);
 float button_width(const Gui& gui, std::string_view text, std::string_view key);
 
 }  // namespace patchlab::viewer

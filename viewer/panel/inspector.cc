@@ -6,23 +6,6 @@ namespace patchlab::viewer {
 
 namespace {
 
-void draw_title(const Gui& gui, const std::string& title, const std::string& kind) {
-  ImGui::Dummy({0, gui.px(2)});
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x;
-  const float kind_width = text_size(gui.fonts.body, kind).x;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_text(draw, gui.fonts.title, at, gui.theme.text,
-            fit_text(gui.fonts.title, title, width - kind_width - gui.px(12)));
-  const float drop = gui.fonts.title->FontSize - gui.fonts.body->FontSize;
-  draw_text_right(draw, gui.fonts.body, {at.x + width, at.y + drop / 2}, gui.theme.text_dim, kind);
-  ImGui::Dummy({width, gui.fonts.title->FontSize + gui.px(4)});
-}
-
-std::string kind_of(const PatchTypeRow& type) {
-  return short_surface_words(type.surface) + " · " + boundary_words(type.boundary);
-}
-
 void draw_keep_line(const PanelInput& in, Requests& out) {
   const Gui& gui = in.gui;
   ImGui::Dummy({0, gui.px(2)});
@@ -46,7 +29,7 @@ void draw_method(const Gui& gui, const PatchEntry& entry) {
 void draw_patch(const PanelInput& in, const PatchEntry& entry, PanelMemory& memory, Requests& out) {
   if (!entry.fit) return;
   const FitResult& fit = *entry.fit;
-  draw_title(in.gui, entry.name, kind_of(*fit.patch.type));
+  draw_title(in.gui, entry.name, kind_words(*fit.patch.type));
   draw_verdict(in.gui, fit.report);
   if (in.state.draft == entry.id) draw_keep_line(in, out);
   if (const ScanEntry* scan = find_scan(in.document, entry.scan)) draw_noise(in.gui, *scan, memory, out);
@@ -54,6 +37,7 @@ void draw_patch(const PanelInput& in, const PatchEntry& entry, PanelMemory& memo
   draw_correlation(in.gui, fit.patch);
   draw_residuals(in.gui, fit.report);
   draw_candidates(in.gui, fit.report, fit.patch.type->surface, out);
+  if (in.state.draft != entry.id) draw_questions(in, entry.id, out);
   draw_method(in.gui, entry);
 }
 
@@ -93,6 +77,7 @@ void draw_scan(const PanelInput& in, const ScanEntry& entry, PanelMemory& memory
     fact(gui, "from", position_text(box->min));
     fact(gui, "to", position_text(box->max));
   }
+  draw_merging(in, {}, memory, out);
   if (!scan.notices.empty()) section(gui, "NOTICES");
   for (const std::string& notice : scan.notices) paragraph(gui, gui.theme.text, notice);
 }
@@ -132,6 +117,19 @@ void draw_welcome(const PanelInput& in, Requests& out) {
 
 }  // namespace
 
+void draw_title(const Gui& gui, const std::string& title, const std::string& kind) {
+  ImGui::Dummy({0, gui.px(2)});
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float kind_width = text_size(gui.fonts.body, kind).x;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_text(draw, gui.fonts.title, at, gui.theme.text,
+            fit_text(gui.fonts.title, title, width - kind_width - gui.px(12)));
+  const float drop = gui.fonts.title->FontSize - gui.fonts.body->FontSize;
+  draw_text_right(draw, gui.fonts.body, {at.x + width, at.y + drop / 2}, gui.theme.text_dim, kind);
+  ImGui::Dummy({width, gui.fonts.title->FontSize + gui.px(4)});
+}
+
 void draw_inspector(const PanelInput& in, PanelMemory& memory, Requests& out) {
   const Gui& gui = in.gui;
   begin_panel("inspector", in.layout.inspector, gui.theme.panel, {gui.px(18), gui.px(10)}, true);
@@ -142,6 +140,12 @@ void draw_inspector(const PanelInput& in, PanelMemory& memory, Requests& out) {
     draw_region(in, *region, memory, out);
   } else if (const ScanEntry* scan = find_scan(in.document, in.state.selected)) {
     draw_scan(in, *scan, memory, out);
+  } else if (const MapEntry* map = find_map(in.document, in.state.selected)) {
+    draw_map(in, *map, memory, out);
+  } else if (const RobotEntry* robot = find_robot(in.document, in.state.selected)) {
+    draw_robot(in, *robot, memory, out);
+  } else if (const std::optional<PlacedPatch> placed = find_placed(in.document, in.state.selected)) {
+    draw_placed_patch(in, *placed, out);
   } else if (in.document.scans.empty()) {
     draw_welcome(in, out);
   }

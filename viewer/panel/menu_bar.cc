@@ -40,6 +40,8 @@ bool starts_group(Action action) {
 }
 
 std::string scan_info(const Document& document) {
+  if (document.scans.empty() && !document.robots.empty()) return document.robots.back().name;
+  if (document.scans.empty() && !document.maps.empty()) return document.maps.back().name;
   if (document.scans.empty()) return "no scan";
   const ScanEntry& entry = document.scans.back();
   std::string info = entry.name;

@@ -192,7 +192,7 @@ void draw_overlay(const PanelInput& in) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const Rect& view = in.layout.view;
   draw.PushClipRect(corner(view), far_corner(view));
-  if (in.document.scans.empty()) {
+  if (in.document.scans.empty() && in.document.maps.empty() && in.document.robots.empty()) {
     draw_invitation(in, draw);
     return draw.PopClipRect();
   }

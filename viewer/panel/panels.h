@@ -1,6 +1,8 @@
 // The panels, one a file. Each reads the document and the view state, draws itself, and adds to the requests.
 #pragma once
 
+#include <array>
+
 #include "engine/project/document.h"
 #include "viewer/panel/choices.h"
 #include "viewer/panel/file_dialog.h"
@@ -22,7 +24,9 @@ struct PanelMemory {
   std::string palette_filter;
   std::size_t palette_cursor = 0;
   ScanForm scan_form;
-  bool choose_noise = false;  // opens the list of noise models
+  std::vector<std::array<std::string, 2>> refused;  // of the proposed matches: ids in the map, in the view
+  std::string held_joint;                           // whose slider is held
+  bool choose_noise = false;                        // opens the list of noise models
   std::string noise_specification;
 };
 
@@ -61,6 +65,15 @@ void draw_correlation(const Gui& gui, const Patch& patch);
 void draw_residuals(const Gui& gui, const FitReport& report);
 void draw_candidates(const Gui& gui, const FitReport& report, SurfaceType shown, Requests& out);
 
+void draw_title(const Gui& gui, const std::string& title, const std::string& kind);
+void draw_robot(const PanelInput& in, const RobotEntry& robot, PanelMemory& memory, Requests& out);
+void draw_map(const PanelInput& in, const MapEntry& map, PanelMemory& memory, Requests& out);
+void draw_placed_patch(const PanelInput& in, const PlacedPatch& patch, Requests& out);
+void draw_place(const PanelInput& in, const std::string& frame, Requests& out);
+// What can be merged into a new or known map: nothing where there is nothing.
+void draw_merging(const PanelInput& in, const std::string& map, PanelMemory& memory, Requests& out);
+void draw_questions(const PanelInput& in, const std::string& patch, Requests& out);
+
 // Words.
 // What a fit is blamed for and what it is warned of, each once: reasons first. Remarks about the frame that
 // the parameters are given in stand beside the correlations.
@@ -69,6 +82,7 @@ std::string choice_words(const std::vector<Candidate>& candidates);  // why the 
 std::string surface_words(SurfaceType surface);                      // "elliptic paraboloid"
 std::string short_surface_words(SurfaceType surface);                // "ell. paraboloid"
 std::string boundary_words(BoundaryType boundary);
+std::string kind_words(const PatchTypeRow& type);  // "ell. paraboloid · ellipse"
 std::string noise_words(const NoiseModel& model);  // "kinect1 (assumed)"
 
 }  // namespace patchlab::viewer

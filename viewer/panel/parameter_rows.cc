@@ -13,6 +13,7 @@ namespace {
 constexpr double radius_is_known = 3.0;  // |kappa| / sigma below which 1/|kappa| says nothing
 
 ParameterRow value_row(const std::string& name, double value, double sigma, Dimension dimension) {
+  if (sigma == 0.0) return {name, quantity(value, dimension), "exact", 0.0, "of its value"};
   const Measured text = measured(value, sigma, dimension);
   return {name, text.value, text.sigma, sigma / std::abs(value), "of its value"};
 }

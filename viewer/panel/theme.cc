@@ -41,6 +41,10 @@ Theme dark() {
       .axis_z = rgb(0x5AA9FF),
       .ellipsoid = rgb(0x7CC7F2, 0.45f),
       .ellipsoid_rim = rgb(0xC4E7FB),
+      .map_patch = rgb(0x4FAF6E),
+      .robot_patch = rgb(0xB9783F),
+      .robot_link = rgb(0xA7AEB9),
+      .gaussian = rgb(0x3D8BF0, 0.85f),
       .neutral_lightness = 0.32,
   };
 }
@@ -78,6 +82,10 @@ Theme light() {
       .axis_z = rgb(0x1F63C9),
       .ellipsoid = rgb(0x2E86BE, 0.40f),
       .ellipsoid_rim = rgb(0x0B4F7A),
+      .map_patch = rgb(0x3C9A5F),
+      .robot_patch = rgb(0xA0622D),
+      .robot_link = rgb(0xC9CED6),
+      .gaussian = rgb(0x2266CC, 0.85f),
       .neutral_lightness = 0.90,
   };
 }

@@ -22,7 +22,8 @@ struct Theme {
   Rgba point_selected, point_outlier;
   Rgba axis_x, axis_y, axis_z;
   Rgba ellipsoid, ellipsoid_rim;
-  double neutral_lightness;  // of diverging(): OKLab lightness of zero
+  Rgba map_patch, robot_patch, robot_link, gaussian;  // maps and robots, as in Fig. 4 of the paper
+  double neutral_lightness;                           // of diverging(): OKLab lightness of zero
 };
 
 Theme theme(ThemeChoice choice);

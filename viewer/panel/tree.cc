@@ -11,7 +11,7 @@ namespace patchlab::viewer {
 
 namespace {
 
-enum class Glyph { dot, diamond, cloud };
+enum class Glyph { dot, diamond, cloud, square };
 
 struct Row {
   std::string id, name, remark;
@@ -19,6 +19,7 @@ struct Row {
   Rgba colour;
   bool visible = true;
   bool draft = false;
+  bool part = false;  // of what stands above it: neither hidden nor renamed by itself
 };
 
 void draw_glyph(const Gui& gui, ImVec2 centre, const Row& row) {
@@ -42,6 +43,12 @@ void draw_glyph(const Gui& gui, ImVec2 centre, const Row& row) {
         draw.AddQuad(top, right, bottom, left, colour, line);
       break;
     }
+    case Glyph::square:
+      if (row.visible)
+        draw.AddRectFilled({centre.x - r, centre.y - r}, {centre.x + r, centre.y + r}, colour, gui.px(2));
+      else
+        draw.AddRect({centre.x - r, centre.y - r}, {centre.x + r, centre.y + r}, colour, gui.px(2), 0, line);
+      break;
     case Glyph::cloud:
       for (const ImVec2 offset :
            {ImVec2{-4, 3}, ImVec2{0, -3}, ImVec2{4, 2}, ImVec2{0, 4}, ImVec2{-3, -1}, ImVec2{3, -3}}) {
@@ -69,15 +76,16 @@ void draw_row_menu(const PanelInput& in, const Row& row, PanelMemory& memory, Re
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {in.gui.px(10), in.gui.px(8)});
   if (ImGui::BeginPopupContextItem("row menu")) {
     out.select = row.id;
-    if (ImGui::MenuItem("Rename", "F2", false, !row.draft)) {
+    const bool changes = !row.draft && !row.part;
+    if (ImGui::MenuItem("Rename", "F2", false, changes)) {
       memory.renaming = row.id;
       memory.new_name = row.name;
     }
-    if (ImGui::MenuItem(row.visible ? "Hide" : "Show", nullptr, false, !row.draft)) {
+    if (ImGui::MenuItem(row.visible ? "Hide" : "Show", nullptr, false, changes)) {
       out.commands.push_back(Show{row.id, !row.visible});
     }
     if (ImGui::MenuItem("Frame", "F")) out.actions.push_back(Action::frame_selection);
-    if (ImGui::MenuItem("Delete", "Delete", false, !row.draft)) out.commands.push_back(Delete{row.id});
+    if (ImGui::MenuItem("Delete", "Delete", false, changes)) out.commands.push_back(Delete{row.id});
     close_on_escape();
     ImGui::EndPopup();
   }
@@ -99,21 +107,21 @@ void draw_row(const PanelInput& in, const Row& row, PanelMemory& memory, Request
     draw.AddRectFilled(at, {at.x + width, at.y + height}, u32(chosen ? theme.accent_ground : theme.hover),
                        gui.px(5));
   }
-  const float text_x = at.x + gui.px(30);
-  const bool on_glyph = hovered && ImGui::GetIO().MousePos.x < text_x;
+  const float indent = row.part ? gui.px(14) : 0.0f, text_x = at.x + gui.px(30) + indent;
+  const bool on_glyph = hovered && !row.part && ImGui::GetIO().MousePos.x < text_x;
   if (ImGui::IsItemClicked(ImGuiMouseButton_Left)) {
     if (on_glyph && !row.draft)
       out.commands.push_back(Show{row.id, !row.visible});
     else
       out.select = row.id;
   }
-  if (hovered && !on_glyph && !row.draft && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+  if (hovered && !on_glyph && !row.draft && !row.part && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
     memory.renaming = row.id;
     memory.new_name = row.name;
   }
   if (on_glyph) tooltip(gui, row.visible ? "Hide" : "Show");
   draw_row_menu(in, row, memory, out);
-  draw_glyph(gui, {at.x + gui.px(17), at.y + height / 2}, row);
+  draw_glyph(gui, {at.x + gui.px(17) + indent, at.y + height / 2}, row);
   if (memory.renaming == row.id) {
     ImGui::SetCursorScreenPos({text_x - gui.px(4), at.y + gui.px(1)});
     draw_name_field(in, row, width - (text_x - at.x), memory, out);
@@ -121,7 +129,7 @@ void draw_row(const PanelInput& in, const Row& row, PanelMemory& memory, Request
     const float remark_width = text_size(gui.fonts.small, row.remark).x;
     const float remark_y = at.y + (height - gui.fonts.small->FontSize) / 2 + gui.px(0.5f);
     draw_text_right(draw, gui.fonts.small, {at.x + width - gui.px(10), remark_y}, theme.text_dim, row.remark);
-    const std::string shown = fit_text(gui.fonts.body, row.name, width - gui.px(52) - remark_width);
+    const std::string shown = fit_text(gui.fonts.body, row.name, width - gui.px(52) - indent - remark_width);
     draw_text(draw, gui.fonts.body, {text_x, at.y + (height - gui.fonts.body->FontSize) / 2},
               row.visible ? (row.draft ? theme.accent_text : theme.text) : theme.text_dim, shown);
   }
@@ -199,6 +207,30 @@ std::vector<Row> patch_rows(const PanelInput& in) {
   return rows;
 }
 
+// Each with the patches of its own below it.
+std::vector<Row> map_rows(const PanelInput& in, const std::vector<PlacedPatch>& placed) {
+  std::vector<Row> rows;
+  const auto add_patches = [&](const std::string& owner, const Rgba& colour, bool visible) {
+    for (const PlacedPatch& patch : placed) {
+      if (patch.owner != owner || patch.of == PatchOf::scan) continue;
+      rows.push_back({patch.id, patch.name, short_surface_words(patch.patch.type->surface), Glyph::diamond,
+                      colour, visible, false, true});
+    }
+  };
+  for (const MapEntry& entry : in.document.maps) {
+    const Rgba& colour = in.gui.theme.map_patch;
+    rows.push_back(
+        {entry.id, entry.name, count(entry.map->patches.size()), Glyph::square, colour, entry.visible});
+    add_patches(entry.id, colour, entry.visible);
+  }
+  for (const RobotEntry& entry : in.document.robots) {
+    const Rgba& colour = in.gui.theme.robot_patch;
+    rows.push_back({entry.id, entry.name, "robot", Glyph::square, colour, entry.visible});
+    add_patches(entry.id, colour, entry.visible);
+  }
+  return rows;
+}
+
 }  // namespace
 
 void draw_tree(const PanelInput& in, PanelMemory& memory, Requests& out) {
@@ -208,6 +240,7 @@ void draw_tree(const PanelInput& in, PanelMemory& memory, Requests& out) {
   draw_rows(in, "SCANS", scan_rows(in), memory, out);
   draw_rows(in, "REGIONS", region_rows(in), memory, out);
   draw_rows(in, "PATCHES", patch_rows(in), memory, out);
+  draw_rows(in, "MAPS AND ROBOTS", map_rows(in, placed_patches(in.document)), memory, out);
   draw_history(in, out);
   ImGui::PopStyleVar();
   end_panel();

@@ -4,12 +4,15 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/fit/fit_patch.h"
 #include "engine/project/command.h"
+#include "engine/project/placed.h"
 #include "engine/region/lasso.h"
 #include "viewer/camera/orbit_camera.h"
 #include "viewer/panel/actions.h"
@@ -76,6 +79,22 @@ struct Busy {
   double fraction = 0.0;
 };
 
+// What is asked of the chosen patch, and the answers.
+struct Questions {
+  std::string other;                               // id of the patch that it is held against
+  double limit = 20.0 * std::numbers::pi / 180.0;  // rad, of the tilt
+  std::optional<Slope> slope;
+  std::optional<Relation> relation;
+  std::string message;  // why there is no relation
+};
+
+// What merging `view` into `map` would match, once the worker has found it.
+struct Proposed {
+  std::string map, view;  // ids; empty: nothing is proposed
+  std::shared_ptr<const MergeProposal> matches;
+  std::string message;  // why there are none
+};
+
 // Work of an earlier time that can be gone on with.
 struct EarlierWork {
   std::filesystem::path journal;
@@ -115,6 +134,8 @@ struct ViewState {
 
   std::optional<MeasuredLine> measured;
   std::optional<DepthSlab> slab;  // all that is shown and selected; absent: everything
+  Questions questions;
+  Proposed proposed;
 
   std::vector<std::string> history;
   std::size_t position = 0;  // how much of the history stands
@@ -150,11 +171,15 @@ struct OpenRequest {
 struct ExportRequest {
   std::string format;
   std::filesystem::path file;
+  std::string chosen = {};  // id of what is chosen: the patches of a map, or else those fitted to scans
+};
+struct ProposalRequest {
+  std::string map, view;  // ids; empty: nothing any more
 };
 
 struct Requests {
   std::vector<Action> actions;
-  std::vector<Command> commands;  // rename, delete, show
+  std::vector<Command> commands;  // quick ones: rename, delete, show, joints, places, merges
   std::optional<std::string> select;
   std::optional<SurfaceRequest> surface;
   std::optional<SetNoise> noise;
@@ -165,6 +190,10 @@ struct Requests {
   std::optional<PictureRequest> picture;
   std::optional<PanelWidths> widths;
   std::optional<DepthSlab> slab;
+  std::optional<SetJoint> drag_joint;    // while a slider is held; the command follows when it is let go
+  std::optional<std::string> ask_about;  // id of a patch to hold the chosen one against
+  std::optional<double> tilt_limit;      // rad
+  std::optional<ProposalRequest> propose;
   bool cancel_work = false;
 };
 

@@ -35,6 +35,10 @@ std::string boundary_words(BoundaryType boundary) {
   return boundary == BoundaryType::convex_quad ? "convex quad" : std::string(name(boundary));
 }
 
+std::string kind_words(const PatchTypeRow& type) {
+  return short_surface_words(type.surface) + " · " + boundary_words(type.boundary);
+}
+
 std::string noise_words(const NoiseModel& model) {
   const std::string words = model.from_file() ? "from file" : model.specification;
   return model.assumed ? words + " (assumed)" : words;

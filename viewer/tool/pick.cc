@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/project/placed.h"
 #include "viewer/camera/orbit_camera.h"
 
 namespace patchlab::viewer {
@@ -30,12 +31,14 @@ std::optional<std::string> pick_patch(const Document& document, const ViewCamera
   const Ray through = ray(camera, pixel);
   std::optional<std::string> hit;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const PatchEntry& entry : document.patches) {
-    if (!entry.visible || !entry.fit) continue;
-    const std::optional<double> s = ray_hit(entry.fit->patch, through.origin, through.direction);
+  for (const PlacedPatch& placed : placed_patches(document)) {
+    if (!is_visible(document, placed)) continue;
+    const Result<Patch> patch = as_shown(document, placed);
+    if (!patch) continue;
+    const std::optional<double> s = ray_hit(*patch, through.origin, through.direction);
     if (!s || *s >= nearest) continue;
     nearest = *s;
-    hit = entry.id;
+    hit = placed.id;
   }
   return hit;
 }

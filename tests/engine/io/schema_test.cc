@@ -75,11 +75,14 @@ TEST(Schema, AcceptsEveryLineOfTheJournalContract) {
 
 TEST(Schema, AcceptsEveryLineOfTheSampleJournal) { expect_journal(top / "assets/sample.patchlab"); }
 
+TEST(Schema, AcceptsEveryLineOfTheJournalOfTheMap) { expect_journal(top / "assets/figures/map.patchlab"); }
+
 TEST(Schema, RefusesAJournalLineThatDoesNothingKnown) {
   EXPECT_NE(complaints("journal", {{"do", "dance"}}), "");
   EXPECT_NE(complaints("journal", {{"do", "rename"}, {"target", "patch-1"}}), "");
   EXPECT_NE(complaints("journal", {{"do", "select"}, {"region", "r"}, {"scan", "s"}, {"mode", "set"}}), "");
   EXPECT_NE(complaints("journal", {{"do", "undo"}, {"twice", true}}), "");
+  EXPECT_NE(complaints("journal", {{"do", "merge"}, {"map", "m"}, {"view", "s"}, {"gate", 1.0}}), "");
 }
 
 TEST(Schema, AcceptsThePatchSetsThatAreWritten) {

@@ -69,7 +69,16 @@ TEST(CommandJson, KeepsEveryMemberThereAndBack) {
   fit.options.robust = true;
   fit.options.seed = 18446744073709551615u;
   fit.options.limits.coverage = 0.5;
+  Place place{"body", "world", {}};
+  place.pose.pose = {{0.1, -0.2, 1.0 / 3.0}, {1e-300, 2.0, 3.0}};
+  place.pose.covariance.diagonal().setConstant(0.1);
   const std::vector<Command> commands = {open,
+                                         OpenMap{"map-1", "a.json", "ab12"},
+                                         OpenRobot{"robot-1", "w.urdf", "ab", "w.json", "cd", "p.json", "ef"},
+                                         SetJoint{"robot-1", "left_knee", 1.0 / 3.0, 0.002},
+                                         SetJoint{"robot-1", "left_knee", -0.1, {}},
+                                         place,
+                                         Merge{"map-1", "scan-2", 0.9, {{"a", "b"}, {"c", "d"}}},
                                          SetNoise{"scan-2", "kinect1"},
                                          lasso,
                                          label,
@@ -127,6 +136,10 @@ TEST(CommandJson, NamesTheMemberThatIsWrong) {
        "select needs one of the members"},
       {R"({"do":"select","region":"r","scan":"s","label":3,"flood":[0,0,1]})",
        "select needs one of the members"},
+      {R"({"do":"set_joint","robot":"r","joint":"j","value":0,"sigma":-1})", "sigma must not be negative"},
+      {R"({"do":"place","frame":"a","in":"b","r":[0,0,0],"t":[0,0]})", "place.t has 2 entries"},
+      {R"({"do":"merge","map":"m","view":"s","gate":1})", "merge.gate must be between 0 and 1"},
+      {R"({"do":"merge","map":"m","view":"s","refused":[["a"]]})", "must be two ids"},
       {R"({"do":"reshape","region":"r"})", "reshape lacks the member \"how\""},
       {R"({"do":"reshape","region":"r","how":"melt"})", "reshape.how 'melt' is not known"},
       {R"({"do":"reshape","region":"r","how":"grow","steps":0})", "reshape.steps must be at least 1"},
