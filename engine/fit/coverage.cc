@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "engine/base/parallel.h"
 #include "engine/fit/distance.h"
 #include "engine/patch/surface.h"
 
 namespace patchlab {
 namespace {
+
+constexpr std::size_t points_a_chunk = 1024;
 
 // Cells about the patch: what area of each is inside the bound, and the points it holds.
 class CellGrid {
@@ -130,15 +134,17 @@ double distance_rms(const Patch& patch, const std::vector<Vector3d>& points_patc
   const Boundary bound = boundary(patch);
   const Vector3d kappa = k3(patch);
   const std::vector<Vector3d> curve = rim(bound, kappa);
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < points_patch.size(); ++i) {
-    if (weights[i] == 0.0) continue;
-    const Vector3d &q = points_patch[i], x = foot_point(q, Matrix3d::Identity(), kappa).x;
-    sum += contains(bound, x.head<2>()) ? (q - x).squaredNorm() : squared_distance(q, curve);
-    ++count;
-  }
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
+  std::vector<double> squares(points_patch.size());
+  for_each_chunk(points_patch.size(), points_a_chunk, [&](const Chunk& chunk) {
+    for (std::size_t i = chunk.first; i < chunk.last; ++i) {
+      if (weights[i] == 0.0) continue;
+      const Vector3d &q = points_patch[i], x = foot_point(q, Matrix3d::Identity(), kappa).x;
+      squares[i] = contains(bound, x.head<2>()) ? (q - x).squaredNorm() : squared_distance(q, curve);
+    }
+  });
+  const auto count = std::ranges::count_if(weights, [](double weight) { return weight != 0.0; });
+  const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+  return std::sqrt(sum / static_cast<double>(std::max<std::ptrdiff_t>(count, 1)));
 }
 
 }  // namespace patchlab

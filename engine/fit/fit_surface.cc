@@ -1,8 +1,10 @@
 #include "engine/fit/fit_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/fit/sample_rows.h"
 #include "engine/patch/surface.h"
@@ -62,10 +64,21 @@ class SurfaceProblem {
 
   NormalEquations evaluate(const SurfaceState& state) const {
     const SampleRows rows(samples_, model_, state, options_.distance);
+    NormalEquations equations = rows.parts() == 1 ? of_blocks(rows, 0, rows.blocks()) : of_all_parts(rows);
+    if (prior_) add_prior(state, equations);
+    return equations;
+  }
+
+  SurfaceState retract(const SurfaceState& state, const StepVector& step) const {
+    return patchlab::retract(state, spread(model_, step));
+  }
+
+ private:
+  NormalEquations of_blocks(const SampleRows& rows, std::size_t first, std::size_t last) const {
     RowSums sums;
     RowBlock block;
     Losses losses;
-    for (std::size_t b = 0; b < rows.blocks(); ++b) {
+    for (std::size_t b = first; b < last; ++b) {
       const std::size_t at = b * block_size, count = rows.count(b),
                         counted = how_many_count(samples_, at, count);
       if (counted == 0) continue;
@@ -82,15 +95,18 @@ class SurfaceProblem {
       equations.cost = losses.cost;
       equations.chi2 = losses.chi2;
     }
-    if (prior_) add_prior(state, equations);
     return equations;
   }
 
-  SurfaceState retract(const SurfaceState& state, const StepVector& step) const {
-    return patchlab::retract(state, spread(model_, step));
+  NormalEquations of_all_parts(const SampleRows& rows) const {
+    std::array<NormalEquations, most_parts> of_parts;
+    for_each_chunk(rows.blocks(), rows.blocks_a_part(), [&](const Chunk& part) {
+      of_parts[part.number] = of_blocks(rows, part.first, part.last);
+    });
+    for (std::size_t part = 1; part < rows.parts(); ++part) of_parts[0] += of_parts[part];
+    return of_parts[0];
   }
 
- private:
   void add_prior(const SurfaceState& state, NormalEquations& equations) const {
     for (int axis = 0; axis < 2; ++axis) {
       const Vector3d tangent = prior_->tangents.col(axis) / prior_->sigma;
@@ -112,11 +128,10 @@ class SurfaceProblem {
 
 double chi_square(const Samples& samples, const SurfaceModel& model, const SurfaceState& state,
                   Distance distance) {
-  double chi2 = 0.0;
-  for_each_residual(SampleRows(samples, model, state, distance), [&](std::size_t i, const Residual& r) {
-    if (samples.robust[i] != 0.0 && samples.bends[i] != 0) chi2 += r.F * r.F;
+  const SampleRows rows(samples, model, state, distance);
+  return sum_of_residuals<double>(rows, [&](std::size_t i, const Residual& r, double& chi2) {
+    if (counts(samples, i)) chi2 += r.F * r.F;
   });
-  return chi2;
 }
 
 // The first two, and of the others those that are better than both as they stand.
@@ -146,6 +161,18 @@ double footprint(const Samples& samples, const SurfaceFit& fit, std::size_t i, c
   const double facing = std::max(std::abs(n.dot(fit.state.R.transpose() * ray)), least_cosine);
   return std::max(depth * depth * cos_psi * std::abs(n.z()) / facing, 0.0);
 }
+
+// Weighted sums over foot points.
+struct Footprint {
+  double weight = 0.0, x = 0.0, y = 0.0, squares = 0.0;
+
+  void operator+=(const Footprint& other) {
+    weight += other.weight;
+    x += other.x;
+    y += other.y;
+    squares += other.squares;
+  }
+};
 
 }  // namespace
 
@@ -199,15 +226,14 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const 
 
 FootPoints foot_points(const Samples& samples, const SurfaceFit& fit) {
   FootPoints feet;
-  feet.x.reserve(samples.size());
-  feet.weight.reserve(samples.size());
-  double sum = 0.0;
+  feet.x.resize(samples.size());
+  feet.weight.resize(samples.size());
   const SampleRows rows(samples, fit.model, fit.state, Distance::exact);
   for_each_residual(rows, [&](std::size_t i, const Residual& r) {
-    feet.x.push_back(r.x);
-    feet.weight.push_back(footprint(samples, fit, i, r));
-    sum += feet.weight.back();
+    feet.x[i] = r.x;
+    feet.weight[i] = footprint(samples, fit, i, r);
   });
+  const double sum = std::accumulate(feet.weight.begin(), feet.weight.end(), 0.0);
   for (double& weight : feet.weight) weight /= sum;
   return feet;
 }
@@ -225,17 +251,14 @@ FootPoints plain_projection(const Samples& samples, const SurfaceFit& fit) {
 }
 
 VertexStart vertex_start(const Samples& samples, const SurfaceFit& fixed) {
-  double total = 0.0, squares = 0.0;
-  Vector2d sum = Vector2d::Zero();
   const SampleRows rows(samples, fixed.model, fixed.state, Distance::exact);
-  for_each_residual(rows, [&](std::size_t i, const Residual& r) {
-    const double weight = footprint(samples, fixed, i, r);
-    total += weight;
-    sum += weight * r.x.head<2>();
-    squares += weight * r.x.head<2>().squaredNorm();
-  });
-  const Vector2d centroid = sum / total;
-  const double size = 2.0 * std::sqrt(0.5 * std::max(squares / total - centroid.squaredNorm(), 0.0));
+  const Footprint all =
+      sum_of_residuals<Footprint>(rows, [&](std::size_t i, const Residual& r, Footprint& part) {
+        const double weight = footprint(samples, fixed, i, r);
+        part += {weight, weight * r.x.x(), weight * r.x.y(), weight * r.x.head<2>().squaredNorm()};
+      });
+  const Vector2d centroid = Vector2d(all.x, all.y) / all.weight;
+  const double size = 2.0 * std::sqrt(0.5 * std::max(all.squares / all.weight - centroid.squaredNorm(), 0.0));
   const Vector3d kappa = k3(fixed.model, fixed.state.k);
   const Vector3d centre = surface_point(centroid, kappa);
   VertexStart start;

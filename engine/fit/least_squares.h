@@ -25,6 +25,13 @@ struct NormalEquations {
   StepMatrix A;
   StepVector b;
   double chi2 = 0.0;  // of the data alone, where the cost holds a loss or a prior too; carried along
+
+  void operator+=(const NormalEquations& other) {
+    cost += other.cost;
+    A += other.A;
+    b += other.b;
+    chi2 += other.chi2;
+  }
 };
 
 struct LeastSquaresOptions {

@@ -56,6 +56,12 @@ Influence<PlaneVector> influence_on_plane(const SurfaceFit& plane, const Samples
 // B S B' summed over the samples, below the diagonal: what the fits and the moments take from the noise.
 struct JointSums {
   JointMatrix G = JointMatrix::Zero();
+  Matrix98 M = Matrix98::Zero();  // how the moments move with the surface
+
+  void operator+=(const JointSums& other) {
+    G += other.G;
+    M += other.M;
+  }
 
   void add_moments(const Matrix93& B, const Matrix93& BS) {
     G.bottomRightCorner<moments_size, moments_size>() += BS.lazyProduct(B.transpose());
@@ -127,16 +133,14 @@ MomentVector moments(const std::vector<Vector3d>& points, const std::vector<doub
 JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet,
                              const JointOptions& options) {
   const MomentVector mean = moments(feet.x, feet.weight);
-  Matrix98 M = Matrix98::Zero();
-  JointSums sums;
   const SampleRows rows(samples, fit.model, fit.state, options.distance);
-  for_each_residual(rows, [&](std::size_t i, const Residual& r) {
+  const auto add = [&](std::size_t i, const Residual& r, JointSums& sums) {
     if (samples.robust[i] == 0.0) return;
     const Vector3d q = to_local(fit.state, samples.q[i]);
     const Matrix3d S = fit.state.R.transpose() * samples.cov[i] * fit.state.R;
     const Motion m = motion(r, fit, q, S, options.projection);
     const Matrix93 phi_x = feet.weight[i] * J_monomials(feet.x[i]);
-    M += phi_x.lazyProduct(m.X_chart);
+    sums.M += phi_x.lazyProduct(m.X_chart);
     const Matrix93 B = phi_x * m.X_q, BS = B * S;
     sums.add_moments(B, BS);
     const Influence<ChartVector> on_fit{std::sqrt(samples.robust[i]) * samples.bends[i] * r.F_p, r.F_q};
@@ -151,10 +155,11 @@ JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, cons
       const MomentVector away = feet.weight[i] * (monomials(feet.x[i]) - mean);
       sums.G.bottomRightCorner<moments_size, moments_size>().noalias() += away * away.transpose();
     }
-  });
+  };
+  const JointSums sums = sum_of_residuals<JointSums>(rows, add);
   JointMatrix G = sums.whole();
   if (fit.prior) G.topLeftCorner<chart_size, chart_size>() += prior_information(fit);
-  const JointMatrix T = solve_all(fit, options.plane, M);
+  const JointMatrix T = solve_all(fit, options.plane, sums.M);
   const JointMatrix joint = T * G * T.transpose();
   return 0.5 * (joint + joint.transpose());
 }

@@ -14,7 +14,7 @@ struct Observations {
   std::vector<Eigen::Vector3d> points;       // m, in the frame of the points
   std::vector<Eigen::Matrix3d> covariances;  // m^2, of each point as measured
   // The covariance of observation i re-evaluated at a foot point on the surface (m), where a sensor model
-  // makes it; empty where the covariances are constants (method M11).
+  // makes it; empty where the covariances are constants (method M11). Called from several threads at once.
   std::function<Eigen::Matrix3d(std::size_t i, const Eigen::Vector3d& foot)> covariance_at;
 
   // One a point, or empty: 1 where the point lies beside a depth edge. It counts for the outline, not for the

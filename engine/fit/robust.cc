@@ -83,11 +83,14 @@ bool keep_quadric_inliers(Samples& samples, std::uint64_t seed) {
 
 double residual_scale(const Samples& samples, const SurfaceFit& fit) {
   constexpr double median_of_normal = 0.6745;
-  std::vector<double> sizes;
+  constexpr double does_not_count = -1.0;
+  std::vector<double> sizes(samples.size());
   for_each_residual(SampleRows(samples, fit.model, fit.state, Distance::exact),
                     [&](std::size_t i, const Residual& r) {
-                      if (samples.robust[i] != 0.0 && samples.bends[i] != 0) sizes.push_back(std::abs(r.F));
+                      const bool counts = samples.robust[i] != 0.0 && samples.bends[i] != 0;
+                      sizes[i] = counts ? std::abs(r.F) : does_not_count;
                     });
+  std::erase(sizes, does_not_count);
   return sizes.empty() ? 1.0 : median(sizes) / median_of_normal;
 }
 

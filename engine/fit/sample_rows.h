@@ -1,12 +1,18 @@
 // Residuals and rows of a fit's samples, a block at a time, by the fastest kernel of this machine.
 #pragma once
 
+#include <array>
 #include <span>
 
+#include "engine/base/parallel.h"
 #include "engine/fit/distance.h"
 #include "engine/fit/samples.h"
 
 namespace patchlab {
+
+// Parts that the samples of a large fit are shared out in; by their number alone, so that sums over them are
+// the same on any number of threads.
+inline constexpr std::size_t most_parts = 16, least_blocks_a_part = 32;
 
 // A surface before the samples: what its kernels read of it.
 class SampleRows {
@@ -15,6 +21,9 @@ class SampleRows {
              const RowKernel& kernel = fastest_rows());
 
   std::size_t blocks() const { return samples_.blocks.size(); }
+  // Blocks that a thread takes on at once, so many that there are `most_parts` parts or fewer.
+  std::size_t blocks_a_part() const;
+  std::size_t parts() const { return chunk_count(blocks(), blocks_a_part()); }
   // Samples of a block: block_size but in the last one.
   std::size_t count(std::size_t block) const;
   // Where the kernel finds no foot point, what `residual` says; rows of 0 to the end of the last lanes.
@@ -38,14 +47,38 @@ class SampleRows {
 // A, b and chi-square, Eq. (33), of rows that were added so.
 NormalEquations normal_equations(const RowSums& sums, int free_size);
 
-// All of a fit's samples in order: what(i, residual).
+// All of a fit's samples, from several threads at once: what(i, residual, number of the part).
 template <class What>
-void for_each_residual(const SampleRows& rows, What&& what) {
-  RowBlock block;
-  for (std::size_t b = 0; b < rows.blocks(); ++b) {
-    rows.evaluate(b, block);
-    for (std::size_t i = 0; i < rows.count(b); ++i) what(b * block_size + i, rows.residual(block, i));
+void for_each_residual_of_parts(const SampleRows& rows, const What& what) {
+  for_each_chunk(rows.blocks(), rows.blocks_a_part(), [&](const Chunk& part) {
+    RowBlock block;
+    for (std::size_t b = part.first; b < part.last; ++b) {
+      rows.evaluate(b, block);
+      for (std::size_t i = 0; i < rows.count(b); ++i)
+        what(b * block_size + i, rows.residual(block, i), part.number);
+    }
+  });
+}
+
+// what(i, residual) must write what belongs to i alone.
+template <class What>
+void for_each_residual(const SampleRows& rows, const What& what) {
+  for_each_residual_of_parts(rows, [&](std::size_t i, const Residual& r, std::size_t) { what(i, r); });
+}
+
+// The sum of what each sample adds: what(i, residual, sum).
+template <class Sum, class What>
+Sum sum_of_residuals(const SampleRows& rows, const What& what) {
+  Sum sum{};
+  if (rows.parts() == 1) {
+    for_each_residual(rows, [&](std::size_t i, const Residual& r) { what(i, r, sum); });
+    return sum;
   }
+  std::array<Sum, most_parts> of_parts{};
+  for_each_residual_of_parts(
+      rows, [&](std::size_t i, const Residual& r, std::size_t part) { what(i, r, of_parts[part]); });
+  for (std::size_t part = 0; part < rows.parts(); ++part) sum += of_parts[part];
+  return sum;
 }
 
 }  // namespace patchlab

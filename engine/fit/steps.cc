@@ -271,16 +271,17 @@ Result<FitResult> conclude(Workbench& work) {
   report.converged = work.surface.converged;
   const Distance distance = by_paper(work) ? Distance::paper : Distance::exact;
   const SampleRows rows(work.samples, work.surface.model, work.surface.state, distance);
-  for_each_residual(rows, [&](std::size_t i, const Residual& r) {
-    report.residuals.push_back(r.F);
+  report.residuals.resize(work.samples.size());
+  for_each_residual(rows, [&](std::size_t i, const Residual& r) { report.residuals[i] = r.F; });
+  for (std::size_t i = 0; i < work.samples.size(); ++i) {
     if (work.samples.robust[i] == 0.0) {
       report.outliers.push_back(static_cast<std::uint32_t>(i));
     } else if (work.samples.bends[i] == 0) {
       ++report.edge_points;
     } else {
-      report.chi2 += r.F * r.F;
+      report.chi2 += report.residuals[i] * report.residuals[i];
     }
-  });
+  }
   report.points = work.samples.size() - report.outliers.size();
   report.dof = static_cast<int>(report.points - report.edge_points) - work.surface.model.effective_parameters;
   validate_fit(work.samples, work.surface, work.feet, result.patch, work.options, report);

@@ -1,11 +1,17 @@
 #include "viewer/render/splat.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "engine/base/parallel.h"
+#include "viewer/render/disk_stamp.h"
+
 namespace patchlab::viewer {
 namespace {
+
+constexpr std::size_t points_a_chunk = 16384;
 
 std::uint8_t to_byte(float value) { return static_cast<std::uint8_t>(value + 0.5f); }
 
@@ -17,56 +23,114 @@ Rgba8 to_rgba8(const Shade& shade) {
   return {to_byte(shade.x()), to_byte(shade.y()), to_byte(shade.z()), 255};
 }
 
-struct Disk {
-  float x, y;  // px
-  std::uint32_t depth;
-  Shade shade;
-};
-
 // The 24 bits of a depth buffer, ndc in [-1, 1].
 std::uint32_t to_depth(float ndc) { return static_cast<std::uint32_t>(8388607.5f * (ndc + 1.0f)) << 8; }
 
-class Splatter {
+// Where the points of an item lie on a canvas, and in which colour.
+class Projection {
  public:
-  Splatter(Canvas& canvas, float size) : canvas_(canvas), radius_(0.5f * std::max(size, 1.0f)) {}
+  Projection(const Canvas& canvas, const PointsItem& item, const View& view, const PointFade& fade)
+      : item_(item),
+        fade_(fade),
+        clip_from_local_(view.clip_from_view * view.view_from_local),
+        depth_row_(-view.view_from_local.row(2)),
+        one_further_(-view.clip_from_view.block<2, 1>(2, 2)),
+        background_(255.0f * fade.background),
+        parts_x_(0.5f * DiskStamp::kParts * static_cast<float>(canvas.width)),
+        parts_y_(0.5f * DiskStamp::kParts * static_cast<float>(canvas.height)) {}
 
-  void draw(const Disk& disk) {
-    const float reach = radius_ + 0.5f;
-    const int x0 = std::max(static_cast<int>(std::ceil(disk.x - 0.5f - reach)), 0);
-    const int x1 = std::min(static_cast<int>(std::floor(disk.x - 0.5f + reach)), canvas_.width - 1);
-    const int y0 = std::max(static_cast<int>(std::ceil(disk.y - 0.5f - reach)), 0);
-    const int y1 = std::min(static_cast<int>(std::floor(disk.y - 0.5f + reach)), canvas_.height - 1);
-    const Rgba8 solid = to_rgba8(disk.shade);
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
-        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas_.width) +
-                              static_cast<std::size_t>(x);
-        if (disk.depth > canvas_.depths[i]) continue;
-        put(i, disk, solid,
-            coverage(static_cast<float>(x) + 0.5f - disk.x, static_cast<float>(y) + 0.5f - disk.y));
-      }
+  std::size_t count() const { return (item_.positions->size() + item_.step - 1) / item_.step; }
+
+  // Of the drawn points number first to last; those that are seen, from `out` on. Returns their end.
+  Canvas::Splat* operator()(std::size_t first, std::size_t last, Canvas::Splat* out) const {
+    for (std::size_t i = first; i < last; ++i) out += project(i * item_.step, *out);
+    return out;
   }
 
  private:
-  float coverage(float dx, float dy) const {
-    const float squared = dx * dx + dy * dy, inner = radius_ - 0.5f;
-    if (squared <= inner * inner) return 1.0f;
-    return radius_ + 0.5f - std::sqrt(squared);
+  bool project(std::size_t i, Canvas::Splat& out) const {
+    const Eigen::Vector4f local = (*item_.positions)[i].homogeneous();
+    const Eigen::Vector4f clip = clip_from_local_ * local;
+    const float w = clip.w();
+    // Written so that NaN fails it.
+    if (!(w > 0.0f && std::abs(clip.z()) <= w && std::abs(clip.x()) <= 1.1f * w &&
+          std::abs(clip.y()) <= 1.1f * w))
+      return false;
+    const Rgba8& colour = (*item_.colours)[i];
+    if (colour[3] == 0) return false;
+    const float far_part = std::clamp((depth_row_.dot(local) - fade_.nearest) / fade_.depth, 0.0f, 1.0f);
+    const float kept = static_cast<float>(colour[3]) / 255.0f * (1.0f - PointFade::kFarthest * far_part);
+    const Eigen::Vector2f set_back = clip.tail<2>() + item_.set_back * one_further_;
+    out = {static_cast<int>(std::floor(parts_x_ * (clip.x() / w + 1.0f))),
+           static_cast<int>(std::floor(parts_y_ * (clip.y() / w + 1.0f))),
+           to_depth(std::min(set_back.x() / set_back.y(), 1.0f)),
+           to_rgba8(background_ + kept * (shade_of(colour) - background_))};
+    return true;
   }
 
-  void put(std::size_t i, const Disk& disk, const Rgba8& solid, float coverage) {
-    if (coverage <= 0.0f) return;
-    if (coverage >= 0.5f) canvas_.depths[i] = disk.depth;
-    if (coverage >= 1.0f) {
-      canvas_.colours[i] = solid;
-    } else {
-      const Shade behind = shade_of(canvas_.colours[i]);
-      canvas_.colours[i] = to_rgba8(behind + coverage * (disk.shade - behind));
+  const PointsItem& item_;
+  const PointFade& fade_;
+  Eigen::Matrix4f clip_from_local_;
+  Eigen::RowVector4f depth_row_;
+  Eigen::Vector2f one_further_;  // of clip z and w, a metre
+  Shade background_;
+  float parts_x_, parts_y_;  // half a canvas, in parts of a pixel
+};
+
+// (1 - c) behind + c front, c in 255ths, two channels at a time.
+std::uint32_t mixed(std::uint32_t behind, std::uint32_t front, std::uint32_t c) {
+  constexpr std::uint32_t every_other = 0x00ff00ff, half = 0x00800080;
+  const auto channels = [&](std::uint32_t b, std::uint32_t f) {
+    const std::uint32_t sum = b * (255 - c) + f * c + half;
+    return ((sum + ((sum >> 8) & every_other)) >> 8) & every_other;
+  };
+  return channels(behind & every_other, front & every_other) |
+         channels((behind >> 8) & every_other, (front >> 8) & every_other) << 8;
+}
+
+// Lays disks on the rows [first, last) of a canvas.
+class Band {
+ public:
+  Band(Canvas& canvas, const DiskStamp& stamp, int first, int last)
+      : canvas_(canvas), stamp_(stamp), first_(first), last_(last) {}
+
+  void draw(std::span<const Canvas::Splat> splats) {
+    const int reach = stamp_.reach();
+    for (const Canvas::Splat& splat : splats) {
+      const int x = splat.x_parts >> 3, y = splat.y_parts >> 3;
+      if (y + reach < first_ || y - reach >= last_) continue;
+      const bool is_whole =
+          y - reach >= first_ && y + reach < last_ && x - reach >= 0 && x + reach < canvas_.width;
+      const auto pixels = stamp_.pixels(splat.x_parts & 7, splat.y_parts & 7);
+      if (is_whole)
+        for (const StampPixel& pixel : pixels) put(x + pixel.dx, y + pixel.dy, pixel.coverage, splat);
+      else
+        draw_part(splat, x, y, pixels);
     }
   }
 
+ private:
+  void draw_part(const Canvas::Splat& splat, int x, int y, std::span<const StampPixel> pixels) {
+    for (const StampPixel& pixel : pixels) {
+      const int px = x + pixel.dx, py = y + pixel.dy;
+      if (px >= 0 && px < canvas_.width && py >= first_ && py < last_) put(px, py, pixel.coverage, splat);
+    }
+  }
+
+  void put(int x, int y, std::uint8_t coverage, const Canvas::Splat& splat) {
+    const std::size_t i =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas_.width) + static_cast<std::size_t>(x);
+    if (splat.depth > canvas_.depths[i]) return;
+    if (coverage >= 128) canvas_.depths[i] = splat.depth;
+    canvas_.colours[i] =
+        coverage == 255 ? splat.colour
+                        : std::bit_cast<Rgba8>(mixed(std::bit_cast<std::uint32_t>(canvas_.colours[i]),
+                                                     std::bit_cast<std::uint32_t>(splat.colour), coverage));
+  }
+
   Canvas& canvas_;
-  float radius_;  // px
+  const DiskStamp& stamp_;
+  int first_, last_;
 };
 
 }  // namespace
@@ -87,30 +151,22 @@ void Canvas::clear(int w, int h, const Rgba& bottom, const Rgba& top) {
 }
 
 void splat(Canvas& canvas, const PointsItem& item, const View& view, const PointFade& fade) {
-  const Eigen::Matrix4f clip_from_local = view.clip_from_view * view.view_from_local;
-  const Eigen::RowVector4f depth_row = -view.view_from_local.row(2);
-  const Eigen::Vector2f one_further = -view.clip_from_view.block<2, 1>(2, 2);  // of clip z and w, a metre
-  const float half_width = 0.5f * static_cast<float>(canvas.width),
-              half_height = 0.5f * static_cast<float>(canvas.height);
-  const Shade background = 255.0f * fade.background;
-  Splatter splatter(canvas, item.size);
-  for (std::size_t i = 0; i < item.positions->size(); i += item.step) {
-    const Eigen::Vector4f local = (*item.positions)[i].homogeneous();
-    const Eigen::Vector4f clip = clip_from_local * local;
-    const float w = clip.w();
-    // Written so that NaN fails it.
-    if (!(w > 0.0f && std::abs(clip.z()) <= w && std::abs(clip.x()) <= 1.1f * w &&
-          std::abs(clip.y()) <= 1.1f * w))
-      continue;
-    const Rgba8& colour = (*item.colours)[i];
-    if (colour[3] == 0) continue;
-    const float far_part = std::clamp((depth_row.dot(local) - fade.nearest) / fade.depth, 0.0f, 1.0f);
-    const float kept = static_cast<float>(colour[3]) / 255.0f * (1.0f - PointFade::kFarthest * far_part);
-    const Eigen::Vector2f set_back = clip.tail<2>() + item.set_back * one_further;
-    splatter.draw({half_width * (clip.x() / w + 1.0f), half_height * (clip.y() / w + 1.0f),
-                   to_depth(std::min(set_back.x() / set_back.y(), 1.0f)),
-                   background + kept * (shade_of(colour) - background)});
-  }
+  const Projection projection(canvas, item, view, fade);
+  const std::size_t count = projection.count();
+  canvas.splats.resize(std::max(canvas.splats.size(), count));
+  std::vector<std::size_t> seen(chunk_count(count, points_a_chunk));
+  for_each_chunk(count, points_a_chunk, [&](const Chunk& chunk) {
+    Canvas::Splat* const first = canvas.splats.data() + chunk.first;
+    seen[chunk.number] = static_cast<std::size_t>(projection(chunk.first, chunk.last, first) - first);
+  });
+  const DiskStamp stamp(std::max(item.size, 1.0f));
+  const auto rows = static_cast<std::size_t>(canvas.height);
+  const std::size_t rows_a_band = std::max<std::size_t>(rows / (2 * thread_count()), 1);
+  for_each_chunk(rows, rows_a_band, [&](const Chunk& of_rows) {
+    Band band(canvas, stamp, static_cast<int>(of_rows.first), static_cast<int>(of_rows.last));
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      band.draw(std::span(canvas.splats).subspan(k * points_a_chunk, seen[k]));
+  });
 }
 
 }  // namespace patchlab::viewer

@@ -1,0 +1,39 @@
+// Antialiased disks of one size, ready to be laid on a canvas.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace patchlab::viewer {
+
+// A pixel of a disk, counted from the one that its centre lies in.
+struct StampPixel {
+  std::int16_t dx, dy;
+  std::uint8_t coverage;  // 1..255
+};
+
+// The disks of one diameter for each eighth of a pixel that their centre may lie at.
+class DiskStamp {
+ public:
+  static constexpr int kParts = 8;  // of a pixel, each way
+
+  explicit DiskStamp(float diameter);  // px, at least 1
+
+  float diameter() const { return diameter_; }
+  // How far its pixels lie from the one of the centre, at most.
+  int reach() const { return reach_; }
+  // `x_part`, `y_part`: 0..kParts - 1, in eighths of a pixel from its lower left corner.
+  std::span<const StampPixel> pixels(int x_part, int y_part) const {
+    const auto at = static_cast<std::size_t>(y_part * kParts + x_part);
+    return std::span(pixels_).subspan(starts_[at], starts_[at + 1] - starts_[at]);
+  }
+
+ private:
+  float diameter_;
+  int reach_ = 0;
+  std::vector<StampPixel> pixels_;
+  std::vector<std::size_t> starts_;
+};
+
+}  // namespace patchlab::viewer
