@@ -1,0 +1,43 @@
+// A fit of so many points that threads share it: the same bytes on one of them.
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include "engine/fit/fit_patch.h"
+#include "engine/fit/sample_rows.h"
+#include "tests/support/battery.h"
+#include "tests/support/seeded_random.h"
+
+namespace patchlab {
+namespace {
+
+FitResult fit_on(int threads, const Observations& observations, const FitOptions& options) {
+  Result<FitResult> result = Error{ErrorCode::usage, "not run"};
+  tbb::task_arena(threads).execute([&] { result = fit_patch(observations, options); });
+  EXPECT_TRUE(result) << result.error().message;
+  return *result;
+}
+
+TEST(Threads, AFitIsTheSameByteForByteOnOneOfThemAndOnMany) {
+  test::SeededRandom random;
+  test::ScenarioOptions scenario;
+  scenario.points = 12000;
+  for (const PatchTypeRow& type : patch_types()) {
+    const Observations observations =
+        test::observe(random, test::random_scenario(random, type, true, scenario), scenario);
+    for (const bool robust : {false, true}) {
+      FitOptions options;
+      options.robust = robust;
+      options.surface = *surface_request_from_name(name(type.surface));
+      options.boundary = *boundary_request_from_name(name(type.boundary));
+      const FitResult one = fit_on(1, observations, options), many = fit_on(4, observations, options);
+      EXPECT_EQ(one.patch.parameters, many.patch.parameters) << name(type.surface);
+      EXPECT_EQ(*one.patch.covariance_local, *many.patch.covariance_local) << name(type.surface);
+      EXPECT_EQ(one.report.residuals, many.report.residuals);
+      EXPECT_EQ(one.report.residual_rms, many.report.residual_rms);
+      EXPECT_EQ(one.report.outliers, many.report.outliers);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace patchlab
