@@ -1,10 +1,12 @@
 // fit_bench [--readme FILE] [Google Benchmark's options]: fits of the engine, of Ceres and of Eigen,
 // interleaved, in CPU time of one thread, nine repetitions each; the arithmetic of the same fits in the same
 // run. --readme writes the table.
+#include <sys/resource.h>
+#include <tbb/task_arena.h>
+
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <thread>
 
 #include "engine/fit/fit_model.h"
 #include "engine/fit/fit_patch.h"
@@ -27,9 +29,14 @@ struct Set {
   double evaluations = 0.0;  // mean, of ours
 };
 
-Set make_set(std::size_t points, int draws) {
+Set observed(std::size_t points, int draws) {
   Set set{points, patches(points, draws), {}, {}, {}, 0.0};
   set.samples = samples_of(set.observations);
+  return set;
+}
+
+Set make_set(std::size_t points, int draws) {
+  Set set = observed(points, draws);
   for (Samples& samples : set.samples) {
     set.starts.push_back(quadratic_start(samples));
     const SurfaceModel held = fixed_centre(surface_model(ModelKind::paraboloid));
@@ -40,21 +47,28 @@ Set make_set(std::size_t points, int draws) {
   return set;
 }
 
+// Threads: of the fits that run at once, and of each of them.
+struct Threads {
+  int beside = 1, within = 1;
+};
+
 // `one` of every patch of the set.
 template <class One>
-void add(const std::string& name, const Set& set, One one, int threads = 1) {
-  const auto all = [&set, one](benchmark::State& state) {
-    for (auto _ : state) {
-      for (std::size_t i = 0; i < set.samples.size(); ++i) benchmark::DoNotOptimize(one(i));
-    }
+void add(const std::string& name, const Set& set, One one, Threads threads = {}) {
+  const auto all = [&set, one, threads](benchmark::State& state) {
+    tbb::task_arena(threads.within).execute([&] {
+      for (auto _ : state) {
+        for (std::size_t i = 0; i < set.samples.size(); ++i) benchmark::DoNotOptimize(one(i));
+      }
+    });
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * set.samples.size()));
   };
   auto* benchmark = benchmark::RegisterBenchmark((name + "/" + std::to_string(set.points)).c_str(), all);
   benchmark->Unit(benchmark::kMicrosecond)
       ->Repetitions(set.points > 2000 ? 5 : 9)
       ->MinTime(set.points > 2000 ? 0.02 : 0.05)
-      ->Threads(threads);
-  if (threads > 1) {
+      ->Threads(threads.beside);
+  if (threads.beside > 1 || threads.within > 1) {
     benchmark->UseRealTime();
   } else {
     benchmark->MeasureProcessCPUTime();  // Ceres may call libraries that have threads of their own
@@ -75,14 +89,16 @@ void add_all(const Set& set) {
         static_cast<std::size_t>(flops_per_point * set.evaluations * static_cast<double>(set.points)));
   });
   add("ours", set, [&](std::size_t i) { return ours(set.samples[i], paper); });
-  add(
-      "ours, two threads", set, [&](std::size_t i) { return ours(set.samples[i], paper); }, 2);
+  add("ours, two at once", set, [&](std::size_t i) { return ours(set.samples[i], paper); }, {2, 1});
+  add("ours, shared", set, [&](std::size_t i) { return ours(set.samples[i], paper); }, {1, 2});
   add("ours exact", set, [&](std::size_t i) { return ours(set.samples[i], set.calibrated[i]); });
   add("height field", set, [&](std::size_t i) { return height_field_fit(set.observations[i].points); });
   const auto both = SurfaceRequest::elliptic_paraboloid;
   add("whole paper", set, [&](std::size_t i) { return whole(set.observations[i], FitMethod::paper, both); });
   add("whole calibrated", set,
       [&](std::size_t i) { return whole(set.observations[i], FitMethod::calibrated, both); });
+  add("whole calibrated, shared", set,
+      [&](std::size_t i) { return whole(set.observations[i], FitMethod::calibrated, both); }, {1, 2});
   add("whole automatic", set, [&](std::size_t i) {
     return whole(set.observations[i], FitMethod::calibrated, SurfaceRequest::automatic);
   });
@@ -96,6 +112,14 @@ void add_all(const Set& set) {
   by_ceres("Ceres QR", Ceres::qr, false);
   by_ceres("Ceres exact", Ceres::normal_cholesky, true);
   if (set.points <= 1500) by_ceres("Ceres per point", Ceres::per_point, false);
+}
+
+void add_for_scaling(const Set& set) {
+  const static Objective paper;
+  const auto both = SurfaceRequest::elliptic_paraboloid;
+  add("ours", set, [&](std::size_t i) { return ours(set.samples[i], paper); });
+  add("whole calibrated", set,
+      [&](std::size_t i) { return whole(set.observations[i], FitMethod::calibrated, both); });
 }
 
 // How far results lie from a tight optimum: chi-square relative, apex in its own standard deviations.
@@ -127,13 +151,15 @@ constexpr Line lines[] = {
     {"the same by Ceres: analytic rows, normal equations, `ceres::Covariance`", "Ceres Cholesky", "ours"},
     {"the same by Ceres, QR", "Ceres QR", "ours"},
     {"the same by Ceres, automatic derivatives, one residual a point", "Ceres per point", "ours"},
-    {"two at a time, on two threads, each", "ours, two threads", "ours"},
+    {"two at once, each on a thread, the time of one", "ours, two at once", "ours"},
+    {"one shared by two threads (above 2048 points)", "ours, shared", "ours"},
     {"nothing but the arithmetic of its evaluations", "arithmetic", "ours"},
     {"an unweighted height field by Eigen, no covariance", "height field", "ours"},
     {"surface and its covariance, exact distance and prior (calibrated)", "ours exact", "ours"},
     {"the same by Ceres", "Ceres exact", "ours exact"},
     {"whole paper's fit: surface, bound, covariance of all, validation", "whole paper", "ours"},
     {"whole calibrated fit, type named", "whole calibrated", "ours exact"},
+    {"the same shared by two threads", "whole calibrated, shared", "whole calibrated"},
     {"whole calibrated fit, type chosen among seven", "whole automatic", "ours exact"},
 };
 
@@ -156,6 +182,42 @@ std::string table(const Collector& times, const std::vector<Set>& sets) {
     }
   }
   return text + "\n";
+}
+
+// Exponents from one size to the next.
+std::string scaling(const Collector& times, const std::vector<std::size_t>& sizes) {
+  std::string text =
+      "\n| points | surface and covariance | grows as N to the | whole fit | grows as N to the |\n";
+  text += "|---|---|---|---|---|\n";
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    text += "| " + std::to_string(sizes[k]) + " |";
+    for (const std::string name : {"ours/", "whole calibrated/"}) {
+      const double us = times.median(name + std::to_string(sizes[k]));
+      text += " " + duration(us, times.spread(name + std::to_string(sizes[k]))) + " | ";
+      if (k > 0)
+        text += exponent(us, times.median(name + std::to_string(sizes[k - 1])), sizes[k], sizes[k - 1]);
+      text += " |";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+double peak_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// What a whole fit of many points takes beside them.
+std::string memory(const Set& set) {
+  const double before = peak_mb();
+  benchmark::DoNotOptimize(
+      whole(set.observations[0], FitMethod::calibrated, SurfaceRequest::elliptic_paraboloid));
+  char text[160];
+  std::snprintf(text, sizeof text, "\nA whole fit of %zu points takes %.0f bytes a point beside its input.\n",
+                set.points, (peak_mb() - before) * 1048576.0 / static_cast<double>(set.points));
+  return text;
 }
 
 }  // namespace
@@ -184,9 +246,14 @@ int main(int argc, char** argv) {
     print_accuracy(set);
     add_all(set);
   }
+  std::vector<Set> large;
+  for (const int points : {150000, 1000000}) large.push_back(observed(static_cast<std::size_t>(points), 1));
+  const std::string memory_used = memory(large.back());
+  for (const Set& set : large) add_for_scaling(set);
   Collector times;
   benchmark::RunSpecifiedBenchmarks(&times);
-  const std::string text = table(times, sets);
+  const std::string text =
+      table(times, sets) + scaling(times, {150, 1500, 15000, 150000, 1000000}) + memory_used;
   std::fputs(text.c_str(), stdout);
   if (!readme.empty() && !write_between_marks(readme, text)) return 1;
 }

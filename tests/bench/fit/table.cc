@@ -75,6 +75,11 @@ std::string ratio(double of, double to) {
                         : text(", %.0f ×", times);
 }
 
+std::string exponent(double us, double us_before, std::size_t size, std::size_t size_before) {
+  const double grown = std::log(static_cast<double>(size) / static_cast<double>(size_before));
+  return text("%.2f", std::log(us / us_before) / grown);
+}
+
 std::string when_and_where() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   char date[16];

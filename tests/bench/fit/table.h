@@ -27,6 +27,9 @@ std::string duration(double us, double spread);
 // ", 18 ×"; nothing for NaN.
 std::string ratio(double of, double to);
 
+// "0.97": of the growth from one size to another.
+std::string exponent(double us, double us_before, std::size_t size, std::size_t size_before);
+
 // Today and the kind of machine.
 std::string when_and_where();
 
