@@ -1,4 +1,4 @@
-// Antialiased disks of one size, ready to be laid on a canvas.
+// Antialiased disks of one size, ready to be laid on a raster.
 #pragma once
 
 #include <cstdint>

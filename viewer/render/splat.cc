@@ -26,29 +26,29 @@ Rgba8 to_rgba8(const Shade& shade) {
 // The 24 bits of a depth buffer, ndc in [-1, 1].
 std::uint32_t to_depth(float ndc) { return static_cast<std::uint32_t>(8388607.5f * (ndc + 1.0f)) << 8; }
 
-// Where the points of an item lie on a canvas, and in which colour.
+// Where the points of an item lie on a raster, and in which colour.
 class Projection {
  public:
-  Projection(const Canvas& canvas, const PointsItem& item, const View& view, const PointFade& fade)
+  Projection(const Raster& raster, const PointsItem& item, const View& view, const PointFade& fade)
       : item_(item),
         fade_(fade),
         clip_from_local_(view.clip_from_view * view.view_from_local),
         depth_row_(-view.view_from_local.row(2)),
         one_further_(-view.clip_from_view.block<2, 1>(2, 2)),
         background_(255.0f * fade.background),
-        parts_x_(0.5f * DiskStamp::kParts * static_cast<float>(canvas.width)),
-        parts_y_(0.5f * DiskStamp::kParts * static_cast<float>(canvas.height)) {}
+        parts_x_(0.5f * DiskStamp::kParts * static_cast<float>(raster.width)),
+        parts_y_(0.5f * DiskStamp::kParts * static_cast<float>(raster.height)) {}
 
   std::size_t count() const { return (item_.positions->size() + item_.step - 1) / item_.step; }
 
   // Of the drawn points number first to last; those that are seen, from `out` on. Returns their end.
-  Canvas::Splat* operator()(std::size_t first, std::size_t last, Canvas::Splat* out) const {
+  Raster::Splat* operator()(std::size_t first, std::size_t last, Raster::Splat* out) const {
     for (std::size_t i = first; i < last; ++i) out += project(i * item_.step, *out);
     return out;
   }
 
  private:
-  bool project(std::size_t i, Canvas::Splat& out) const {
+  bool project(std::size_t i, Raster::Splat& out) const {
     const Eigen::Vector4f local = (*item_.positions)[i].homogeneous();
     const Eigen::Vector4f clip = clip_from_local_ * local;
     const float w = clip.w();
@@ -74,7 +74,7 @@ class Projection {
   Eigen::RowVector4f depth_row_;
   Eigen::Vector2f one_further_;  // of clip z and w, a metre
   Shade background_;
-  float parts_x_, parts_y_;  // half a canvas, in parts of a pixel
+  float parts_x_, parts_y_;  // half a raster, in parts of a pixel
 };
 
 // (1 - c) behind + c front, c in 255ths, two channels at a time.
@@ -88,19 +88,19 @@ std::uint32_t mixed(std::uint32_t behind, std::uint32_t front, std::uint32_t c) 
          channels((behind >> 8) & every_other, (front >> 8) & every_other) << 8;
 }
 
-// Lays disks on the rows [first, last) of a canvas.
+// Lays disks on the rows [first, last) of a raster.
 class Band {
  public:
-  Band(Canvas& canvas, const DiskStamp& stamp, int first, int last)
-      : canvas_(canvas), stamp_(stamp), first_(first), last_(last) {}
+  Band(Raster& raster, const DiskStamp& stamp, int first, int last)
+      : raster_(raster), stamp_(stamp), first_(first), last_(last) {}
 
-  void draw(std::span<const Canvas::Splat> splats) {
+  void draw(std::span<const Raster::Splat> splats) {
     const int reach = stamp_.reach();
-    for (const Canvas::Splat& splat : splats) {
+    for (const Raster::Splat& splat : splats) {
       const int x = splat.x_parts >> 3, y = splat.y_parts >> 3;
       if (y + reach < first_ || y - reach >= last_) continue;
       const bool is_whole =
-          y - reach >= first_ && y + reach < last_ && x - reach >= 0 && x + reach < canvas_.width;
+          y - reach >= first_ && y + reach < last_ && x - reach >= 0 && x + reach < raster_.width;
       const auto pixels = stamp_.pixels(splat.x_parts & 7, splat.y_parts & 7);
       if (is_whole)
         for (const StampPixel& pixel : pixels) put(x + pixel.dx, y + pixel.dy, pixel.coverage, splat);
@@ -110,32 +110,32 @@ class Band {
   }
 
  private:
-  void draw_part(const Canvas::Splat& splat, int x, int y, std::span<const StampPixel> pixels) {
+  void draw_part(const Raster::Splat& splat, int x, int y, std::span<const StampPixel> pixels) {
     for (const StampPixel& pixel : pixels) {
       const int px = x + pixel.dx, py = y + pixel.dy;
-      if (px >= 0 && px < canvas_.width && py >= first_ && py < last_) put(px, py, pixel.coverage, splat);
+      if (px >= 0 && px < raster_.width && py >= first_ && py < last_) put(px, py, pixel.coverage, splat);
     }
   }
 
-  void put(int x, int y, std::uint8_t coverage, const Canvas::Splat& splat) {
+  void put(int x, int y, std::uint8_t coverage, const Raster::Splat& splat) {
     const std::size_t i =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas_.width) + static_cast<std::size_t>(x);
-    if (splat.depth > canvas_.depths[i]) return;
-    if (coverage >= 128) canvas_.depths[i] = splat.depth;
-    canvas_.colours[i] =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.width) + static_cast<std::size_t>(x);
+    if (splat.depth > raster_.depths[i]) return;
+    if (coverage >= 128) raster_.depths[i] = splat.depth;
+    raster_.colours[i] =
         coverage == 255 ? splat.colour
-                        : std::bit_cast<Rgba8>(mixed(std::bit_cast<std::uint32_t>(canvas_.colours[i]),
+                        : std::bit_cast<Rgba8>(mixed(std::bit_cast<std::uint32_t>(raster_.colours[i]),
                                                      std::bit_cast<std::uint32_t>(splat.colour), coverage));
   }
 
-  Canvas& canvas_;
+  Raster& raster_;
   const DiskStamp& stamp_;
   int first_, last_;
 };
 
 }  // namespace
 
-void Canvas::clear(int w, int h, const Rgba& bottom, const Rgba& top) {
+void Raster::clear(int w, int h, const Rgba& bottom, const Rgba& top) {
   width = w;
   height = h;
   const std::size_t row = static_cast<std::size_t>(w);
@@ -150,22 +150,22 @@ void Canvas::clear(int w, int h, const Rgba& bottom, const Rgba& top) {
   }
 }
 
-void splat(Canvas& canvas, const PointsItem& item, const View& view, const PointFade& fade) {
-  const Projection projection(canvas, item, view, fade);
+void splat(Raster& raster, const PointsItem& item, const View& view, const PointFade& fade) {
+  const Projection projection(raster, item, view, fade);
   const std::size_t count = projection.count();
-  canvas.splats.resize(std::max(canvas.splats.size(), count));
+  raster.splats.resize(std::max(raster.splats.size(), count));
   std::vector<std::size_t> seen(chunk_count(count, points_a_chunk));
   for_each_chunk(count, points_a_chunk, [&](const Chunk& chunk) {
-    Canvas::Splat* const first = canvas.splats.data() + chunk.first;
+    Raster::Splat* const first = raster.splats.data() + chunk.first;
     seen[chunk.number] = static_cast<std::size_t>(projection(chunk.first, chunk.last, first) - first);
   });
   const DiskStamp stamp(std::max(item.size, 1.0f));
-  const auto rows = static_cast<std::size_t>(canvas.height);
+  const auto rows = static_cast<std::size_t>(raster.height);
   const std::size_t rows_a_band = std::max<std::size_t>(rows / (2 * thread_count()), 1);
   for_each_chunk(rows, rows_a_band, [&](const Chunk& of_rows) {
-    Band band(canvas, stamp, static_cast<int>(of_rows.first), static_cast<int>(of_rows.last));
+    Band band(raster, stamp, static_cast<int>(of_rows.first), static_cast<int>(of_rows.last));
     for (std::size_t k = 0; k < seen.size(); ++k)
-      band.draw(std::span(canvas.splats).subspan(k * points_a_chunk, seen[k]));
+      band.draw(std::span(raster.splats).subspan(k * points_a_chunk, seen[k]));
   });
 }
 

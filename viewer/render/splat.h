@@ -11,7 +11,7 @@
 namespace patchlab::viewer {
 
 // Row by row from the lower edge, as OpenGL has it.
-struct Canvas {
+struct Raster {
   int width = 0, height = 0;
   std::vector<Rgba8> colours;
   std::vector<std::uint32_t> depths;  // of the depth buffer: 0 near to 2^32 - 1 far
@@ -30,6 +30,6 @@ struct Canvas {
 
 // Adds the points as antialiased disks, as points.vert and points.frag do. Precondition: as many colours as
 // positions.
-void splat(Canvas& canvas, const PointsItem& item, const View& view, const PointFade& fade);
+void splat(Raster& raster, const PointsItem& item, const View& view, const PointFade& fade);
 
 }  // namespace patchlab::viewer

@@ -31,21 +31,21 @@ void SplatPass::resize(int width, int height) {
 }
 
 void SplatPass::upload() {
-  resize(canvas_.width, canvas_.height);
+  resize(raster_.width, raster_.height);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glBindTexture(GL_TEXTURE_2D, colours_.name());
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, canvas_.colours.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, raster_.colours.data());
   glBindTexture(GL_TEXTURE_2D, depths_.name());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
-                  canvas_.depths.data());
+                  raster_.depths.data());
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 
 void SplatPass::draw(const Scene& scene, const View& view, const PointFade& fade) {
   const Viewport& viewport = view.viewport;
-  canvas_.clear(viewport.width, viewport.height, scene.background_bottom, scene.background_top);
+  raster_.clear(viewport.width, viewport.height, scene.background_bottom, scene.background_top);
   for (const PointsItem& item : scene.points)
-    if (complete(item)) splat(canvas_, item, view, fade);
+    if (complete(item)) splat(raster_, item, view, fade);
   GLint bound = 0;
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());

@@ -19,7 +19,7 @@ class SplatPass {
   void upload();
 
   ResidentCache<Box> boxes_;
-  Canvas canvas_;
+  Raster raster_;
   int width_ = 0, height_ = 0;  // px, of the textures
   GlObject<TextureKind> colours_, depths_;
   GlObject<FramebufferKind> framebuffer_;

@@ -22,10 +22,10 @@ View view() {
 }
 const PointFade no_fade{Eigen::Vector3f::Zero(), 1e6f, 1.0f};
 
-Canvas black() {
-  Canvas canvas;
-  canvas.clear(width, height, {0, 0, 0, 1}, {0, 0, 0, 1});
-  return canvas;
+Raster black() {
+  Raster raster;
+  raster.clear(width, height, {0, 0, 0, 1}, {0, 0, 0, 1});
+  return raster;
 }
 
 PointsItem cloud(std::size_t count, float size) {
@@ -53,14 +53,14 @@ TEST(Splat, OnePointIsADiskWhereItIsSeenToAnEighthOfAPixel) {
       const Eigen::Vector3f position(part() / 1.5f, part() / 2.0f, -1.0f);
       PointsItem item{std::make_shared<std::vector<Eigen::Vector3f>>(1, position),
                       std::make_shared<std::vector<Rgba8>>(1, Rgba8{255, 255, 255, 255}), size};
-      Canvas canvas = black();
-      splat(canvas, item, view(), no_fade);
+      Raster raster = black();
+      splat(raster, item, view(), no_fade);
       const Eigen::Vector2d centre(0.5 * width * (1.5 * position.x() + 1),
                                    0.5 * height * (2.0 * position.y() + 1));
       double furthest = 0.0;
       for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-          const double drawn = canvas.colours[static_cast<std::size_t>(y * width + x)][0] / 255.0;
+          const double drawn = raster.colours[static_cast<std::size_t>(y * width + x)][0] / 255.0;
           furthest = std::max(furthest, std::abs(drawn - coverage(centre, 0.5 * size, x, y)));
         }
       EXPECT_LE(furthest, std::sqrt(2.0) / (2 * DiskStamp::kParts) + 1.0 / 255) << size << " " << position;
@@ -69,9 +69,9 @@ TEST(Splat, OnePointIsADiskWhereItIsSeenToAnEighthOfAPixel) {
 
 TEST(Splat, TheNearestOfManyIsSeenWhateverTheirOrder) {
   const PointsItem item = cloud(20000, 3.0f);
-  Canvas canvas = black();
-  splat(canvas, item, view(), no_fade);
-  std::vector<std::uint32_t> depths(canvas.depths.size(), ~0u);
+  Raster raster = black();
+  splat(raster, item, view(), no_fade);
+  std::vector<std::uint32_t> depths(raster.depths.size(), ~0u);
   for (const Eigen::Vector3f& position : *item.positions) {
     const Eigen::Vector4f clip = view().clip_from_view * position.homogeneous();
     const int x = static_cast<int>(std::floor(0.5f * width * (clip.x() / clip.w() + 1)));
@@ -82,12 +82,12 @@ TEST(Splat, TheNearestOfManyIsSeenWhateverTheirOrder) {
     depth = std::min(depth, static_cast<std::uint32_t>(0.5 * (ndc + 1.0) * 4294967040.0));
   }
   for (std::size_t i = 0; i < depths.size(); ++i)
-    EXPECT_LE(canvas.depths[i], std::min(depths[i], ~0u - 4096u) + 4096u) << i;
+    EXPECT_LE(raster.depths[i], std::min(depths[i], ~0u - 4096u) + 4096u) << i;
 }
 
 TEST(Splat, ThePictureIsTheSameByteForByteOnOneThread) {
   const PointsItem item = cloud(100000, 2.5f);
-  Canvas many = black(), one = black();
+  Raster many = black(), one = black();
   splat(many, item, view(), no_fade);
   tbb::task_arena(1).execute([&] { splat(one, item, view(), no_fade); });
   EXPECT_EQ(many.colours, one.colours);
@@ -101,10 +101,10 @@ TEST(Splat, PointsThatAreNotNumbersOrAbsentLeaveNoTrace) {
   auto colours = std::make_shared<std::vector<Rgba8>>(3, Rgba8{255, 255, 255, 255});
   (*colours)[2][3] = 0;
   item.colours = colours;
-  Canvas canvas = black();
-  splat(canvas, item, view(), no_fade);
-  EXPECT_EQ(canvas.colours, black().colours);
-  EXPECT_EQ(canvas.depths, black().depths);
+  Raster raster = black();
+  splat(raster, item, view(), no_fade);
+  EXPECT_EQ(raster.colours, black().colours);
+  EXPECT_EQ(raster.depths, black().depths);
 }
 
 }  // namespace
