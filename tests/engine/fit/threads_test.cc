@@ -1,5 +1,6 @@
 // A fit of so many points that threads share it: the same bytes on one of them.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "engine/fit/fit_patch.h"
@@ -18,6 +19,7 @@ FitResult fit_on(int threads, const Observations& observations, const FitOptions
 }
 
 TEST(Threads, AFitIsTheSameByteForByteOnOneOfThemAndOnMany) {
+  const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
   test::SeededRandom random;
   test::ScenarioOptions scenario;
   scenario.points = 12000;
