@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstdio>
+#include <numbers>
 
 #include "engine/project/command.h"
 
@@ -73,9 +75,14 @@ std::string spell(const OpenRobot& open, const Document& after) {
   return "open " + called(after, open.id) + patches(find_robot(after, open.id)->model->patches.size());
 }
 
-std::string spell(const SetJoint& set, const Document&) {
+std::string spell(const SetJoint& set, const Document& after) {
+  const RobotEntry* robot = find_robot(after, set.robot);
+  const std::vector<RobotJoint>& joints = robot->model->robot.joints;
+  const auto joint = std::ranges::find(joints, set.joint, &RobotJoint::name);
+  const bool slides = joint != joints.end() && joint->kind == JointKind::sliding;
   char value[32];
-  std::snprintf(value, sizeof value, "%.3f", set.value);
+  std::snprintf(value, sizeof value, slides ? "%.1f mm" : "%.1f\u00b0",
+                slides ? 1e3 * set.value : set.value * 180.0 / std::numbers::pi);
   return "move " + set.joint + " · " + value;
 }
 
