@@ -1,7 +1,6 @@
 #include "engine/fit/fit_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -64,7 +63,8 @@ class SurfaceProblem {
 
   NormalEquations evaluate(const SurfaceState& state) const {
     const SampleRows rows(samples_, model_, state, options_.distance);
-    NormalEquations equations = rows.parts() == 1 ? of_blocks(rows, 0, rows.blocks()) : of_all_parts(rows);
+    NormalEquations equations =
+        sum_of_parts(rows.blocks(), [&](const Chunk& part) { return of_part(rows, part); });
     if (prior_) add_prior(state, equations);
     return equations;
   }
@@ -74,11 +74,11 @@ class SurfaceProblem {
   }
 
  private:
-  NormalEquations of_blocks(const SampleRows& rows, std::size_t first, std::size_t last) const {
+  NormalEquations of_part(const SampleRows& rows, const Chunk& part) const {
     RowSums sums;
     RowBlock block;
     Losses losses;
-    for (std::size_t b = first; b < last; ++b) {
+    for (std::size_t b = part.first; b < part.last; ++b) {
       const std::size_t at = b * block_size, count = rows.count(b),
                         counted = how_many_count(samples_, at, count);
       if (counted == 0) continue;
@@ -96,15 +96,6 @@ class SurfaceProblem {
       equations.chi2 = losses.chi2;
     }
     return equations;
-  }
-
-  NormalEquations of_all_parts(const SampleRows& rows) const {
-    std::array<NormalEquations, most_parts> of_parts;
-    for_each_chunk(rows.blocks(), rows.blocks_a_part(), [&](const Chunk& part) {
-      of_parts[part.number] = of_blocks(rows, part.first, part.last);
-    });
-    for (std::size_t part = 1; part < rows.parts(); ++part) of_parts[0] += of_parts[part];
-    return of_parts[0];
   }
 
   void add_prior(const SurfaceState& state, NormalEquations& equations) const {

@@ -55,49 +55,37 @@ double weight_along(const Matrix3d& cov, const Vector3d& normal) {
   return 1.0 / std::max(normal.dot(cov * normal), 1e-12 * cov.trace() + 1e-300);
 }
 
-// A block's rows sqrt(weight) (1, x, y, x^2/2, xy, y^2/2, z) in coordinates divided by `size`; two of 0.
-void height_rows(const SampleBlock& block, const double* share, const SurfaceState& frame, double size,
-                 RowBlock& rows) {
-  const Matrix3d axes = frame.R / size;
-  const Vector3d c = frame.c, n = frame.R.col(2);
-  for (std::size_t i = 0; i < block_size; ++i) {
-    const double a = block.q[0][i] - c[0], b = block.q[1][i] - c[1], d = block.q[2][i] - c[2];
-    const double x = axes(0, 0) * a + axes(1, 0) * b + axes(2, 0) * d;
-    const double y = axes(0, 1) * a + axes(1, 1) * b + axes(2, 1) * d;
-    const double z = axes(0, 2) * a + axes(1, 2) * b + axes(2, 2) * d;
-    const double xx = block.cov[0][i], xy = block.cov[1][i], xz = block.cov[2][i];
-    const double yy = block.cov[3][i], yz = block.cov[4][i], zz = block.cov[5][i];
-    const double v = n[0] * (n[0] * xx + 2.0 * (n[1] * xy + n[2] * xz)) +
-                     n[1] * (n[1] * yy + 2.0 * n[2] * yz) + n[2] * n[2] * zz;
-    const double root = std::sqrt(share[i] / std::max(v, 1e-12 * (xx + yy + zz) + 1e-300));
-    rows.row[0][i] = root;
-    rows.row[1][i] = root * x;
-    rows.row[2][i] = root * y;
-    rows.row[3][i] = 0.5 * root * x * x;
-    rows.row[4][i] = root * x * y;
-    rows.row[5][i] = 0.5 * root * y * y;
-    rows.row[6][i] = root * z;
-    rows.row[7][i] = rows.row[8][i] = 0.0;
+HeightFrame height_frame(const SurfaceState& frame, double size) {
+  HeightFrame heights{{}, size};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    heights.frame.c[i] = frame.c[i];
+    for (Eigen::Index j = 0; j < 3; ++j) heights.frame.R[i][j] = frame.R(i, j);
   }
+  return heights;
 }
 
-Vector6 fit_heights(const Samples& samples, const SurfaceState& frame) {
-  const double size = extent(samples);
+NormalEquations height_equations(const Samples& samples, const HeightFrame& heights, const Chunk& part) {
   const double* columns[row_count];
   RowBlock rows;
   for (std::size_t row = 0; row < row_count; ++row) columns[row] = rows.row[row];
   RowSums sums;
-  for (std::size_t b = 0; b < samples.blocks.size(); ++b) {
-    double share[block_size] = {};
+  for (std::size_t b = part.first; b < part.last; ++b) {
+    alignas(32) double share[block_size] = {};
     for (std::size_t i = b * block_size; i < std::min((b + 1) * block_size, samples.size()); ++i) {
       share[i % block_size] = samples.robust[i] * samples.bends[i];
     }
-    height_rows(samples.blocks[b], share, frame, size, rows);
+    fastest_rows().heights(heights, samples.blocks[b], share, block_size, rows);
     fastest_rows().add(columns, row_count / 3, block_size, sums);
   }
-  const NormalEquations equations = normal_equations(sums, 6);
-  HeightSums heights{equations.A, equations.b, size};
-  return heights.solve();
+  return normal_equations(sums, 6);
+}
+
+Vector6 fit_heights(const Samples& samples, const SurfaceState& frame) {
+  const double size = extent(samples);
+  const HeightFrame heights = height_frame(frame, size);
+  const NormalEquations equations = sum_of_parts(
+      samples.blocks.size(), [&](const Chunk& part) { return height_equations(samples, heights, part); });
+  return HeightSums{equations.A, equations.b, size}.solve();
 }
 
 SurfaceState reframed(const SurfaceState& frame, const Vector6& a) {
@@ -222,8 +210,11 @@ SurfaceState initial_plane(const Samples& samples) {
 }
 
 SurfaceState height_field(const Samples& samples, const SurfaceState& frame) {
-  SurfaceState turned = reframed(frame, fit_heights(samples, frame));
-  const Vector6 a = fit_heights(samples, turned);
+  constexpr double level = 0.1;  // slopes that change the curvatures by a hundredth
+  Vector6 a = fit_heights(samples, frame);
+  SurfaceState turned = reframed(frame, a);
+  if (a.segment<2>(1).norm() < level) return principal(turned, a);
+  a = fit_heights(samples, turned);
   turned.c += a[0] * turned.R.col(2);
   return principal(turned, a);
 }

@@ -44,12 +44,20 @@ struct alignas(32) RowSums {
   double tile[6][9][lane_count] = {};
 };
 
+// A frame for heights: (1, x, y, x^2/2, xy, y^2/2, z) in its coordinates, divided by `size`.
+struct HeightFrame {
+  RowSurface frame;  // R and c
+  double size;       // m
+};
+
 struct RowKernel {
   const char* name;
   // The first `count` samples of a block; counts are multiples of lane_count here and below. False where some
   // failed.
   bool (*paper)(const RowSurface&, const SampleBlock&, std::size_t count, RowBlock&);
   bool (*exact)(const RowSurface&, const SampleBlock&, std::size_t count, RowBlock&);
+  // Rows of heights over a plane, times the root of share / variance along the normal; two of 0.
+  void (*heights)(const HeightFrame&, const SampleBlock&, const double* share, std::size_t count, RowBlock&);
   // Adds the products of 3 * groups rows, groups <= 3.
   void (*add)(const double* const* rows, int groups, std::size_t count, RowSums&);
 };

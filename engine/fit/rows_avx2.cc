@@ -4,7 +4,7 @@ namespace patchlab {
 
 const RowKernel* avx2_rows() {
 #ifdef __AVX2__
-  static constexpr RowKernel kernel = {"AVX2", paper_rows, exact_rows, add_rows};
+  static constexpr RowKernel kernel = {"AVX2", paper_rows, exact_rows, height_rows, add_rows};
   return __builtin_cpu_supports("avx2") ? &kernel : nullptr;
 #else
   return nullptr;

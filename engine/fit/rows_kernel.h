@@ -278,6 +278,28 @@ bool exact_rows(const RowSurface& surface, const SampleBlock& samples, std::size
               : exact_rows_of<false>(surface, samples, count, block);
 }
 
+void height_rows(const HeightFrame& heights, const SampleBlock& samples, const double* share,
+                 std::size_t count, RowBlock& block) {
+  const RowSurface& frame = heights.frame;
+  const Lanes zero = {};
+  const Vec n = {zero + frame.R[0][2], zero + frame.R[1][2], zero + frame.R[2][2]};
+  const double inverse = 1.0 / heights.size;
+  for (std::size_t at = 0; at < count; at += width) {
+    const Sample sample = load(samples, at);
+    const Vec q = scaled(to_local(frame, sample.q), zero + inverse);
+    const Lanes v = clamped(dot(n, product(sample.cov, n)), trace(sample.cov), n);
+    const Lanes s = root(lanes(share + at) / v), half_sx = 0.5 * s * q.x;
+    lanes(block.row[0] + at) = s;
+    lanes(block.row[1] + at) = s * q.x;
+    lanes(block.row[2] + at) = s * q.y;
+    lanes(block.row[3] + at) = half_sx * q.x;
+    lanes(block.row[4] + at) = s * q.x * q.y;
+    lanes(block.row[5] + at) = 0.5 * s * q.y * q.y;
+    lanes(block.row[6] + at) = s * q.z;
+    lanes(block.row[7] + at) = lanes(block.row[8] + at) = zero;
+  }
+}
+
 // Products of three rows with three others, lane by lane; constant indices keep the sums in registers.
 void add_products(const double* const* a, const double* const* b, std::size_t count,
                   double (*sums)[lane_count]) {

@@ -3,7 +3,7 @@
 namespace patchlab {
 
 const RowKernel& plain_rows() {
-  static constexpr RowKernel kernel = {"plain", paper_rows, exact_rows, add_rows};
+  static constexpr RowKernel kernel = {"plain", paper_rows, exact_rows, height_rows, add_rows};
   return kernel;
 }
 

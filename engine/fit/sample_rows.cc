@@ -51,10 +51,6 @@ SampleRows::SampleRows(const Samples& samples, const SurfaceModel& model, const 
       kernel_(kernel),
       surface_(row_surface(model, state)) {}
 
-std::size_t SampleRows::blocks_a_part() const {
-  return std::max(least_blocks_a_part, chunk_count(blocks(), most_parts));
-}
-
 std::size_t SampleRows::count(std::size_t block) const {
   return std::min(block_size, samples_.size() - block * block_size);
 }

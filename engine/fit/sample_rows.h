@@ -1,6 +1,7 @@
 // Residuals and rows of a fit's samples, a block at a time, by the fastest kernel of this machine.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -14,6 +15,21 @@ namespace patchlab {
 // the same on any number of threads.
 inline constexpr std::size_t most_parts = 16, least_blocks_a_part = 32;
 
+inline std::size_t blocks_a_part(std::size_t blocks) {
+  return std::max(least_blocks_a_part, chunk_count(blocks, most_parts));
+}
+
+// The sum of of_part(chunk of blocks), which runs on several threads at once.
+template <class OfPart>
+NormalEquations sum_of_parts(std::size_t blocks, const OfPart& of_part) {
+  const std::size_t grain = blocks_a_part(blocks), parts = chunk_count(blocks, grain);
+  if (parts == 1) return of_part(Chunk{0, 0, blocks});
+  std::array<NormalEquations, most_parts> of_parts;
+  for_each_chunk(blocks, grain, [&](const Chunk& part) { of_parts[part.number] = of_part(part); });
+  for (std::size_t part = 1; part < parts; ++part) of_parts[0] += of_parts[part];
+  return of_parts[0];
+}
+
 // A surface before the samples: what its kernels read of it.
 class SampleRows {
  public:
@@ -21,9 +37,7 @@ class SampleRows {
              const RowKernel& kernel = fastest_rows());
 
   std::size_t blocks() const { return samples_.blocks.size(); }
-  // Blocks that a thread takes on at once, so many that there are `most_parts` parts or fewer.
-  std::size_t blocks_a_part() const;
-  std::size_t parts() const { return chunk_count(blocks(), blocks_a_part()); }
+  std::size_t parts() const { return chunk_count(blocks(), blocks_a_part(blocks())); }
   // Samples of a block: block_size but in the last one.
   std::size_t count(std::size_t block) const;
   // Where the kernel finds no foot point, what `residual` says; rows of 0 to the end of the last lanes.
@@ -50,7 +64,7 @@ NormalEquations normal_equations(const RowSums& sums, int free_size);
 // All of a fit's samples, from several threads at once: what(i, residual, number of the part).
 template <class What>
 void for_each_residual_of_parts(const SampleRows& rows, const What& what) {
-  for_each_chunk(rows.blocks(), rows.blocks_a_part(), [&](const Chunk& part) {
+  for_each_chunk(rows.blocks(), blocks_a_part(rows.blocks()), [&](const Chunk& part) {
     RowBlock block;
     for (std::size_t b = part.first; b < part.last; ++b) {
       rows.evaluate(b, block);
