@@ -39,7 +39,7 @@ struct SurfaceFitOptions {
   Distance distance = Distance::exact;
   bool robust = false;        // Tukey's loss, 4.685 standard deviations
   double robust_scale = 1.0;  // what counts as a standard deviation there, in those of the noise model
-  LeastSquaresOptions solver;
+  LeastSquaresOptions solver = {.initial_damping = 1e-4};  // starts are near: height fields, other models
 };
 
 // Minimises from a state.

@@ -41,6 +41,20 @@ struct LeastSquaresOptions {
   std::function<bool()> keep_going = {};  // asked before each step; false ends it where it is
 };
 
+// The solution of A x = b, A symmetric and positive definite or nearly so; sizes up to 8 are compiled each.
+template <int size = 1>
+StepVector solve_positive(const StepMatrix& A, const StepVector& b) {
+  if constexpr (size > 8) {
+    return A.ldlt().solve(b);
+  } else if (A.rows() != size) {
+    return solve_positive<size + 1>(A, b);
+  } else {
+    const Eigen::LLT<Eigen::Matrix<double, size, size>> factor(A);
+    if (factor.info() != Eigen::Success) return A.ldlt().solve(b);
+    return factor.solve(Eigen::Matrix<double, size, 1>(b));
+  }
+}
+
 struct LeastSquaresSummary {
   bool converged = false;
   int iterations = 0;  // accepted and refused steps
@@ -75,7 +89,7 @@ LeastSquaresSummary minimise(const Problem& problem, typename Problem::State& st
     const StepVector information = here.A.diagonal();
     scale = scale.cwiseMax(information).cwiseMax(1e-30 * information.maxCoeff());
     const StepMatrix damped = here.A + StepMatrix((damping * scale).asDiagonal());
-    const StepVector step = -damped.ldlt().solve(here.b);
+    const StepVector step = -solve_positive(damped, here.b);
     const double length = step.dot(here.A * step);
     const double predicted = step.dot(damping * scale.cwiseProduct(step) - here.b);
     auto candidate = problem.retract(state, step);
