@@ -205,10 +205,14 @@ void validate_fit(const Samples& samples, const SurfaceFit& fit, const FootPoint
                   const FitOptions& options, FitReport& report) {
   report.p_value = report.dof > 0 ? chi_square_p_value(report.chi2, report.dof) : 1.0;
   std::vector<Vector3d> points, feet_patch;
-  const Pose pose = world_from_patch(patch);
+  points.reserve(samples.size());
+  feet_patch.reserve(samples.size());
+  const Matrix3d patch_from_world = axes(patch).transpose(), patch_from_fit = patch_from_world * fit.state.R;
+  const Vector3d to_fit = patch_from_world * (samples.origin + fit.state.c - centre(patch));
+  const Vector3d to_samples = patch_from_world * (samples.origin - centre(patch));
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    points.push_back(apply_inverse(pose, samples.origin + samples.q[i]));
-    feet_patch.push_back(apply_inverse(pose, samples.origin + fit.state.c + fit.state.R * feet.x[i]));
+    points.push_back(to_samples + patch_from_world * samples.q[i]);
+    feet_patch.push_back(to_fit + patch_from_fit * feet.x[i]);
   }
   report.residual_rms = distance_rms(patch, points, samples.robust);
   report.coverage = coverage(patch, feet_patch, feet.weight);
