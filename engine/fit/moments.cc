@@ -21,15 +21,17 @@ struct Motion {
 
 Motion motion(const Residual& r, const SurfaceFit& fit, const Vector3d& q, const Matrix3d& S,
               Projection projection) {
-  Matrix38 q_chart = Matrix38::Zero();  // dq = [q]x w - t
-  q_chart.middleCols<3>(2) = skew(q);
-  q_chart.rightCols<3>() = -Matrix3d::Identity();
-  if (projection == Projection::plain) return {Matrix3d::Identity(), q_chart};
-  const Vector3d along = S * r.g / r.v;
   Motion m;
-  m.X_q = Matrix3d::Identity() - along * r.g.transpose();
-  m.X_chart = m.X_q * q_chart;
-  m.X_chart.leftCols<2>() -= along * J_f_chart(fit.model, r.x, r.g).head<2>().transpose();
+  if (projection == Projection::plain) {
+    m.X_q.setIdentity();
+    m.X_chart.leftCols<2>().setZero();
+  } else {
+    const Vector3d along = S * r.g / r.v;
+    m.X_q = Matrix3d::Identity() - along * r.g.transpose();
+    m.X_chart.leftCols<2>() = -along * J_f_chart(fit.model, r.x, r.g).head<2>().transpose();
+  }
+  m.X_chart.middleCols<3>(2) = m.X_q * skew(q);  // dq = [q]x w - t
+  m.X_chart.rightCols<3>() = -m.X_q;
   return m;
 }
 
@@ -74,6 +76,17 @@ struct JointSums {
   }
   void add_both(const Influence<ChartVector>& fit, const Influence<PlaneVector>& plane, const Vector3d& Sb) {
     G.block<plane_size, chart_size>(plane_at, 0).noalias() += (plane.b.dot(Sb) * plane.a) * fit.a.transpose();
+  }
+  // Of a foot point X_q S g = 0, so that what moves the fit does not move it, and
+  // X_q S X_q' = S - S g g' S / v.
+  void add_foot_point(const Residual& r, const Matrix3d& S, const Matrix93& phi_x, const MomentVector& away,
+                      const ChartVector& a) {
+    const Vector3d Sg = S * r.g;
+    Eigen::Matrix<double, moments_size, 4> left, right;
+    left << phi_x.lazyProduct(Matrix3d(S - Sg * Sg.transpose() / r.v)), away;
+    right << phi_x, away;
+    G.bottomRightCorner<moments_size, moments_size>() += left.lazyProduct(right.transpose());
+    G.topLeftCorner<chart_size, chart_size>() += a.lazyProduct(a.transpose());
   }
   JointMatrix whole() const { return G.selfadjointView<Eigen::Lower>(); }
 };
@@ -134,6 +147,8 @@ JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, cons
                              const JointOptions& options) {
   const MomentVector mean = moments(feet.x, feet.weight);
   const SampleRows rows(samples, fit.model, fit.state, options.distance);
+  const bool of_foot_points = options.distance == Distance::exact &&
+                              options.projection == Projection::foot_points && options.plane == nullptr;
   const auto add = [&](std::size_t i, const Residual& r, JointSums& sums) {
     if (samples.robust[i] == 0.0) return;
     const Vector3d q = to_local(fit.state, samples.q[i]);
@@ -141,9 +156,12 @@ JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, cons
     const Motion m = motion(r, fit, q, S, options.projection);
     const Matrix93 phi_x = feet.weight[i] * J_monomials(feet.x[i]);
     sums.M += phi_x.lazyProduct(m.X_chart);
+    const Influence<ChartVector> on_fit{std::sqrt(samples.robust[i]) * samples.bends[i] * r.F_p, r.F_q};
+    const MomentVector away = options.sampling ? MomentVector(feet.weight[i] * (monomials(feet.x[i]) - mean))
+                                               : MomentVector::Zero();
+    if (of_foot_points) return sums.add_foot_point(r, S, phi_x, away, on_fit.a);
     const Matrix93 B = phi_x * m.X_q, BS = B * S;
     sums.add_moments(B, BS);
-    const Influence<ChartVector> on_fit{std::sqrt(samples.robust[i]) * samples.bends[i] * r.F_p, r.F_q};
     const Vector3d Sb = S * on_fit.b;
     sums.add_fit<0>(on_fit, BS, Sb);
     if (options.plane != nullptr) {
@@ -151,10 +169,7 @@ JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, cons
       sums.add_fit<plane_at>(on_plane, BS, S * on_plane.b);
       sums.add_both(on_fit, on_plane, Sb);
     }
-    if (options.sampling) {
-      const MomentVector away = feet.weight[i] * (monomials(feet.x[i]) - mean);
-      sums.G.bottomRightCorner<moments_size, moments_size>().noalias() += away * away.transpose();
-    }
+    sums.G.bottomRightCorner<moments_size, moments_size>().noalias() += away * away.transpose();
   };
   const JointSums sums = sum_of_residuals<JointSums>(rows, add);
   JointMatrix G = sums.whole();

@@ -127,7 +127,7 @@ bool place_floats(Scan& scan, const std::array<const Column*, 3>& xyz, std::size
       continue;
     }
     positions[i] = {p[0], p[1], p[2]};
-    strange += is_strange(p[0]) | is_strange(p[1]) | is_strange(p[2]) ? 1 : 0;
+    strange += (is_strange(p[0]) | is_strange(p[1]) | is_strange(p[2])) ? 1 : 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], p[axis]);
       high[axis] = std::max(high[axis], p[axis]);

@@ -109,8 +109,7 @@ Result<Ids> with_label(const ScanEntry& entry, std::uint32_t label) {
 
 Result<Ids> with_indices(const ScanEntry& entry, Ids ids) {
   std::ranges::sort(ids);
-  const auto repeated = std::ranges::unique(ids);
-  ids.erase(repeated.begin(), repeated.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   if (ids.empty() || ids.back() < entry.scan->size()) return ids;
   return Error{ErrorCode::unreadable, "The region names point " + std::to_string(ids.back()) +
                                           " (counted from 0), but " + entry.scan->file + " has only " +
