@@ -27,13 +27,16 @@ struct Source {
   std::vector<std::string>& notices;
 };
 
+// Of no points there is no memory to point into.
+const char* behind(const char* first, std::size_t bytes) { return first ? first + bytes : nullptr; }
+
 std::vector<Column> interleaved(const std::vector<PcdField>& fields, const char* first) {
   std::size_t step = 0;
   for (const PcdField& field : fields) step += field.bytes();
   std::vector<Column> columns;
   for (const PcdField& field : fields) {
     columns.push_back({field.name, field.type, field.count, first, step});
-    first += field.bytes();
+    first = behind(first, field.bytes());
   }
   return columns;
 }
@@ -43,7 +46,7 @@ std::vector<Column> one_after_another(const std::vector<PcdField>& fields, std::
   std::vector<Column> columns;
   for (const PcdField& field : fields) {
     columns.push_back({field.name, field.type, field.count, first, field.bytes()});
-    first += field.bytes() * points;
+    first = behind(first, field.bytes() * points);
   }
   return columns;
 }
