@@ -4,16 +4,18 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/parallel.h"
 #include "engine/region/projector.h"
 
 namespace patchlab {
 namespace {
 
 constexpr float nothing = std::numeric_limits<float>::infinity();
-constexpr int coarsest = 32;          // px, side of a cell
-constexpr double most_gaps = 0.03;    // share of cells amid points that may be empty
-constexpr int amid = 5;               // of the eight cells around, so many hold points
-constexpr double steepest = 3.0;      // slope of a surface against the view that still is one
+constexpr int coarsest = 32;        // px, side of a cell
+constexpr double most_gaps = 0.03;  // share of cells amid points that may be empty
+constexpr int amid = 5;             // of the eight cells around, so many hold points
+constexpr double steepest = 3.0;    // slope of a surface against the view that still is one
+constexpr std::size_t points_a_chunk = 16384, rows_a_chunk = 32;
 constexpr double hiding_reach = 1.5;  // cells, from a point to those that may hide it
 
 // Least depths, row by row.
@@ -56,23 +58,43 @@ int occupied_around(const DepthGrid& grid, int x, int y) {
   return count;
 }
 
-bool closed(const DepthGrid& grid) {
+// Cells amid points, and the empty ones of them.
+struct Gaps {
   std::size_t cells = 0, empty = 0;
-  for (int y = 0; y < grid.height; ++y) {
-    for (int x = 0; x < grid.width; ++x) {
-      if (occupied_around(grid, x, y) < amid) continue;
-      ++cells;
-      empty += grid.at(x, y) == nothing;
-    }
+};
+Gaps gaps_in_row(const DepthGrid& grid, int y) {
+  Gaps gaps;
+  for (int x = 0; x < grid.width; ++x) {
+    if (occupied_around(grid, x, y) < amid) continue;
+    ++gaps.cells;
+    gaps.empty += grid.at(x, y) == nothing;
   }
-  return cells > 0 && static_cast<double>(empty) <= most_gaps * static_cast<double>(cells);
+  return gaps;
 }
 
-float nearest_around(const DepthGrid& grid, int x, int y) {
-  float nearest = nothing;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) nearest = std::min(nearest, grid.at(x + dx, y + dy));
+bool closed(const DepthGrid& grid) {
+  std::vector<Gaps> rows(static_cast<std::size_t>(grid.height));
+  for_each_chunk(rows.size(), rows_a_chunk, [&](const Chunk& chunk) {
+    for (std::size_t y = chunk.first; y < chunk.last; ++y) rows[y] = gaps_in_row(grid, static_cast<int>(y));
+  });
+  Gaps all;
+  for (const Gaps& row : rows) {
+    all.cells += row.cells;
+    all.empty += row.empty;
   }
+  return all.cells > 0 && static_cast<double>(all.empty) <= most_gaps * static_cast<double>(all.cells);
+}
+
+// The nearest in each cell and those beside it.
+DepthGrid nearest_around(const DepthGrid& grid) {
+  DepthGrid nearest = grid;
+  for_each_chunk(static_cast<std::size_t>(grid.height), rows_a_chunk, [&](const Chunk& chunk) {
+    for (int y = static_cast<int>(chunk.first); y < static_cast<int>(chunk.last); ++y)
+      for (int x = 0; x < grid.width; ++x)
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx)
+            nearest.at(x, y) = std::min(nearest.at(x, y), grid.at(x + dx, y + dy));
+  });
   return nearest;
 }
 
@@ -93,23 +115,29 @@ std::vector<std::uint8_t> visible_points(const Scan& scan, const ViewCamera& cam
   std::vector<std::uint8_t> seen(scan.size(), 0);
   std::vector<Projected> pixels(scan.size());
   DepthGrid grid(1, width, height);
+  for_each_chunk(scan.size(), points_a_chunk, [&](const Chunk& chunk) {
+    for (std::size_t i = chunk.first; i < chunk.last; ++i) {
+      if (!scan.finite[i]) continue;
+      pixels[i] = project_point(scan.point(i));
+      seen[i] = in_view(pixels[i]);
+    }
+  });
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!scan.finite[i]) continue;
-    const Projected p = pixels[i] = project_point(scan.point(i));
-    seen[i] = in_view(p);
     if (!seen[i]) continue;
-    float& depth = grid.at(static_cast<int>(p.x), static_cast<int>(p.y));
-    depth = std::min(depth, static_cast<float>(p.depth));
+    float& depth = grid.at(static_cast<int>(pixels[i].x), static_cast<int>(pixels[i].y));
+    depth = std::min(depth, static_cast<float>(pixels[i].depth));
   }
   while (grid.cell < coarsest && !closed(grid)) grid = coarser(grid);
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!seen[i]) continue;
-    const Projected& p = pixels[i];
-    const float nearest =
-        nearest_around(grid, static_cast<int>(p.x) / grid.cell, static_cast<int>(p.y) / grid.cell);
-    const double slant = steepest * hiding_reach * grid.cell * project_point.footprint(p.depth);
-    seen[i] = p.depth - nearest <= slant + thickness;
-  }
+  const DepthGrid nearest = nearest_around(grid);
+  for_each_chunk(scan.size(), points_a_chunk, [&](const Chunk& chunk) {
+    for (std::size_t i = chunk.first; i < chunk.last; ++i) {
+      if (!seen[i]) continue;
+      const Projected& p = pixels[i];
+      const double slant = steepest * hiding_reach * grid.cell * project_point.footprint(p.depth);
+      const float before = nearest.at(static_cast<int>(p.x) / grid.cell, static_cast<int>(p.y) / grid.cell);
+      seen[i] = p.depth - before <= slant + thickness;
+    }
+  });
   return seen;
 }
 
