@@ -20,6 +20,7 @@ class CellGrid {
   CellGrid(const Boundary& bound, const Boundary& doubtless, double side, const Vector2d& reach)
       : bound_(bound),
         doubtless_(doubtless),
+        extent_(extent(bound)),
         side_(side),
         columns_(count(reach.x())),
         rows_(count(reach.y())) {
@@ -63,6 +64,10 @@ class CellGrid {
   }
   double share_inside(int column, int row) const {
     constexpr int fine = 6;
+    const auto beyond = [&](int cell, int cells, double reach) {
+      return std::abs(side_ * (cell - cells / 2 + 0.5)) - 0.5 * side_ > reach;
+    };
+    if (beyond(column, columns_, extent_.x()) || beyond(row, rows_, extent_.y())) return 0.0;
     int hits = 0;
     for (int i = 0; i < fine * fine; ++i) {
       const double x = column - columns_ / 2 + (i % fine + 0.5) / fine,
@@ -73,6 +78,7 @@ class CellGrid {
   }
 
   Boundary bound_, doubtless_;  // outside the latter is outside beyond the outline's own doubt
+  Vector2d extent_;             // of bound_
   double side_;
   int columns_, rows_;
   std::vector<double> inside_, outside_;
