@@ -1,6 +1,7 @@
 #include "engine/fit/coverage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,13 +15,33 @@ namespace {
 
 constexpr std::size_t points_a_chunk = 1024;
 
+// Where normal . u > offset, u lies outside.
+struct OuterLine {
+  Vector2d normal;
+  double offset;
+};
+// The sides of a quad, or of the box around another outline.
+std::array<OuterLine, 4> outer_lines(const Boundary& bound) {
+  const Vector2d reach = extent(bound);
+  std::array<Vector2d, 4> corners = {reach, {-reach.x(), reach.y()}, -reach, {reach.x(), -reach.y()}};
+  if (bound.type == BoundaryType::convex_quad) corners = vertices(bound);
+  std::array<OuterLine, 4> lines;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector2d a = corners[i], along = corners[(i + 1) % 4] - a;
+    const Vector2d normal(along.y(), -along.x());
+    const double side = normal.dot(a) < 0.0 ? -1.0 : 1.0;  // the origin is inside
+    lines[i] = {side * normal, side * normal.dot(a)};
+  }
+  return lines;
+}
+
 // Cells about the patch: what area of each is inside the bound, and the points it holds.
 class CellGrid {
  public:
   CellGrid(const Boundary& bound, const Boundary& doubtless, double side, const Vector2d& reach)
       : bound_(bound),
         doubtless_(doubtless),
-        extent_(extent(bound)),
+        lines_(outer_lines(bound)),
         side_(side),
         columns_(count(reach.x())),
         rows_(count(reach.y())) {
@@ -62,12 +83,16 @@ class CellGrid {
     const double at = std::floor(u / side_);
     return std::abs(at) <= most_each_side ? static_cast<int>(at) + cells / 2 : -1;
   }
+  // Beyond one of the straight lines that the outline lies between.
+  bool is_beyond(int column, int row) const {
+    const Vector2d middle = side_ * Vector2d(column - columns_ / 2 + 0.5, row - rows_ / 2 + 0.5);
+    return std::ranges::any_of(lines_, [&](const OuterLine& line) {
+      return line.normal.dot(middle) - 0.5 * side_ * line.normal.lpNorm<1>() > line.offset;
+    });
+  }
   double share_inside(int column, int row) const {
     constexpr int fine = 6;
-    const auto beyond = [&](int cell, int cells, double reach) {
-      return std::abs(side_ * (cell - cells / 2 + 0.5)) - 0.5 * side_ > reach;
-    };
-    if (beyond(column, columns_, extent_.x()) || beyond(row, rows_, extent_.y())) return 0.0;
+    if (is_beyond(column, row)) return 0.0;
     int hits = 0;
     for (int i = 0; i < fine * fine; ++i) {
       const double x = column - columns_ / 2 + (i % fine + 0.5) / fine,
@@ -78,7 +103,7 @@ class CellGrid {
   }
 
   Boundary bound_, doubtless_;  // outside the latter is outside beyond the outline's own doubt
-  Vector2d extent_;             // of bound_
+  std::array<OuterLine, 4> lines_;
   double side_;
   int columns_, rows_;
   std::vector<double> inside_, outside_;
