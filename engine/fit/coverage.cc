@@ -148,6 +148,7 @@ double coverage(const Patch& patch, const std::vector<Vector3d>& feet_patch,
       static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; }));
   const double cells = std::clamp(used / points_per_cell, 4.0, most_cells);
   const double side = std::sqrt(area(bound) / cells);
+  if (!(side > 0.0 && std::isfinite(side))) return 0.0;
   Vector2d reach = extent(bound);
   for (std::size_t i = 0; i < feet_patch.size(); ++i) {
     if (weights[i] > 0.0) reach = reach.cwiseMax(feet_patch[i].head<2>().cwiseAbs());

@@ -187,6 +187,13 @@ TEST(Robot, AsksForWhatIsMissing) {
               HasSubstr("no link \"hand\""));
 }
 
+// What libFuzzer found: a character that is cut off took the parser past the end of the text.
+TEST(Urdf, ThatIsNotUtf8IsRefusedWithThePlace) {
+  const Result<Robot> robot = read_urdf("<robot name=\"r\xf0", "r.urdf");
+  ASSERT_FALSE(robot);
+  EXPECT_EQ(robot.error().message, "r.urdf: byte 15 is not of UTF-8 text; correct the URDF.");
+}
+
 TEST(Urdf, ThatIsNoRobotIsRefusedInOneSentence) {
   const std::string ab = link_xml("a") + link_xml("b");
   std::string crowd;
