@@ -22,7 +22,6 @@ bool positive_semi_definite(const Eigen::Matrix3d& cov) {
   return cov.trace() > 0.0 && shifted.llt().info() == Eigen::Success;
 }
 
-// A sensor known by its position alone is taken to look along the ray.
 Viewpoint looking_at(const Eigen::Vector3d& position, const Eigen::Vector3d& point) {
   const Eigen::Quaterniond q(shortest_turn(Eigen::Vector3d::UnitZ(), point - position));
   return {position, {q.x(), q.y(), q.z(), q.w()}, true};
@@ -39,11 +38,10 @@ Result<Eigen::Matrix3d> stored_covariance(const Scan& scan, std::uint32_t id) {
                                           "; correct it or name a sensor model with --noise."};
 }
 
-void observe_viewpoint(const Scan& scan, std::uint32_t id, Observations& observations) {
-  if (scan.viewpoints.empty()) return;
-  const Eigen::Vector3f& position = scan.viewpoints[id];
-  observations.viewpoints.push_back(position.allFinite() ? (scan.origin + position.cast<double>()).eval()
-                                                         : scan.viewpoint.position);
+// Where a point's own is not finite, the scan's.
+Eigen::Vector3d sensor_position(const Scan& scan, std::size_t id) {
+  const bool is_own = !scan.viewpoints.empty() && scan.viewpoints[id].allFinite();
+  return is_own ? (scan.origin + scan.viewpoints[id].cast<double>()).eval() : scan.viewpoint.position;
 }
 
 void use_sensor_model(const Scan& scan, const NoiseModel& model, Observations& observations) {
@@ -72,6 +70,11 @@ std::vector<double> depth_sigmas(const Scan& scan, const Observations& observati
 
 }  // namespace
 
+Viewpoint sensor_of(const Scan& scan, std::size_t id) {
+  if (scan.viewpoints.empty()) return scan.viewpoint;
+  return looking_at(sensor_position(scan, id), scan.point(id));
+}
+
 Result<Observations> observe(const Scan& scan, const NoiseModel& model, std::span<const std::uint32_t> ids,
                              std::vector<std::uint32_t>* kept) {
   if (model.from_file() && scan.covariances.empty()) {
@@ -85,7 +88,7 @@ Result<Observations> observe(const Scan& scan, const NoiseModel& model, std::spa
   for (const std::uint32_t id : ids) {
     if (!scan.finite[id]) continue;
     observations.points.push_back(scan.point(id));
-    observe_viewpoint(scan, id, observations);
+    if (!scan.viewpoints.empty()) observations.viewpoints.push_back(sensor_position(scan, id));
     if (model.from_file()) {
       Result<Eigen::Matrix3d> cov = stored_covariance(scan, id);
       if (!cov) return cov.error();

@@ -12,6 +12,10 @@
 
 namespace patchlab {
 
+// The sensor that saw a point: the scan's, or of a scan of many sensors the point's own, known by its
+// position alone and taken to look along the ray.
+Viewpoint sensor_of(const Scan& scan, std::size_t id);
+
 // Non-finite points are left out; `kept` (optional) receives the ids that remain, in the order of the
 // observations. unreadable error where a covariance of the file is not symmetric positive semi-definite
 // (names the point). Under a sensor model, points at a depth edge of an organised scan

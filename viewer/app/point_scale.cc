@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/region/observe.h"
+
 namespace patchlab::viewer {
 
 namespace {
@@ -13,7 +15,7 @@ constexpr std::size_t most_asked = 20'000;  // points, for the ends of the scale
 constexpr double beyond = 0.01;             // share of the points below and above what is coloured apart
 
 Eigen::Matrix3d covariance_at(const Scan& scan, const NoiseModel& noise, std::size_t i) {
-  if (!noise.from_file()) return covariance(noise, scan.viewpoint, scan.point(i));
+  if (!noise.from_file()) return covariance(noise, sensor_of(scan, i), scan.point(i));
   const Covariance6& c = scan.covariances[i];
   Eigen::Matrix3d cov;
   cov << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];

@@ -126,9 +126,11 @@ std::vector<std::uint8_t> point_shades(const Scan& scan, std::size_t normals_lim
   std::vector<std::uint8_t> shades(scan.size(), 0);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (!scan.finite[i]) continue;
-    const Vector3f to_sensor = sensor - scan.positions[i];
-    const float range = to_sensor.norm();
-    const float facing = normals.empty() ? 1.0f : normals[i].dot((to_sensor + range * light).normalized());
+    const bool has_own = !scan.viewpoints.empty() && scan.viewpoints[i].allFinite();
+    const Vector3f to_sensor = (has_own ? scan.viewpoints[i] : sensor) - scan.positions[i];
+    const float range = (sensor - scan.positions[i]).norm();
+    const float facing =
+        normals.empty() ? 1.0f : normals[i].dot((to_sensor + to_sensor.norm() * light).normalized());
     const float lit = std::isfinite(facing) ? 0.15f + 0.85f * std::max(facing, 0.0f) : 0.15f;
     shades[i] = static_cast<std::uint8_t>(std::lround(255.0f * (1.0f - 0.45f * ranges.part(range)) * lit));
   }

@@ -70,8 +70,12 @@ void draw_scan(const PanelInput& in, const ScanEntry& entry, PanelMemory& memory
   fact(gui, "pixel grid", scan.organized() ? count(scan.width) + " × " + count(scan.height) : "none");
   draw_noise(gui, entry, memory, out);
   section(gui, "SENSOR");
-  fact(gui, "position", position_text(scan.viewpoint.position));
-  fact(gui, "stated in the file", scan.viewpoint.stated ? "yes" : "no");
+  if (scan.viewpoints.empty()) {
+    fact(gui, "position", position_text(scan.viewpoint.position));
+    fact(gui, "stated in the file", scan.viewpoint.stated ? "yes" : "no");
+  } else {
+    fact(gui, "positions", "one a point, stated in the file");
+  }
   if (const std::optional<Bounds> box = bounds(scan)) {
     section(gui, "BOUNDS");
     fact(gui, "from", position_text(box->min));

@@ -120,6 +120,7 @@ TEST(Observe, PointsTheCovarianceOfAMergedCloudAlongEachRay) {
   const Eigen::Matrix3d& sideways = observations->covariances[0];
   EXPECT_GT(sideways(0, 0), 10.0 * sideways(2, 2))
       << "the sensor looks along -x: x is the uncertain direction";
+  EXPECT_EQ(covariance(kStereo, sensor_of(scan, 0), scan.point(0)), sideways);
 }
 
 TEST(Observe, GivesTheOpticalAxisOfACameraAndOfAPointTableAlone) {
