@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/base/parallel.h"
+
 namespace patchlab {
 namespace {
 
@@ -88,7 +90,14 @@ std::size_t count_duplicates(const Scan& scan) {
 
 Survey survey(const Scan& scan) {
   if (scan.finite_count == 0) return {};
-  return {count_duplicates(scan), count_far(scan)};
+  Survey found;
+  for_each_chunk(2, 1, [&](const Chunk& half) {
+    if (half.number == 0)
+      found.duplicates = count_duplicates(scan);
+    else
+      found.far_outliers = count_far(scan);
+  });
+  return found;
 }
 
 }  // namespace patchlab
