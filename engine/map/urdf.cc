@@ -207,9 +207,9 @@ Result<Robot> read_urdf(std::string_view text, const std::string& name) {
   const auto wrong = [&](const std::string& what) {
     return Error{ErrorCode::unreadable, name + ": " + printable(what) + "; correct the URDF."};
   };
+  // The parser would read past the end of a character that is cut off.
   if (const std::size_t at = first_not_utf8(text); at != std::string_view::npos)
-    return wrong("byte " + std::to_string(at) +
-                 " is not of UTF-8 text");  // the parser would read past the end
+    return wrong("byte " + std::to_string(at + 1) + " is not of UTF-8 text");
   if (too_deep(text)) return wrong("elements are nested more than " + std::to_string(deepest) + " deep");
   if (has_crowd_of_attributes(text))
     return wrong("an element has more than " + std::to_string(most_attributes) + " attributes");

@@ -7,6 +7,6 @@ extern "C" const char* __lsan_default_options();
 extern "C" const char* __lsan_default_suppressions();
 
 const char* __lsan_default_options() { return "use_tls=0:print_suppressions=0"; }
-const char* __lsan_default_suppressions() { return "leak:ld-linux\nleak:libgomp\nleak:_dlerror_run\n"; }
+const char* __lsan_default_suppressions() { return "leak:ld-linux\nleak:libgomp\n"; }
 
 #endif
