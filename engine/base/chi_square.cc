@@ -6,11 +6,23 @@
 #include <numbers>
 
 namespace patchlab {
+namespace {
 
-double chi_square_cdf(double x, double dof) { return boost::math::cdf(boost::math::chi_squared(dof), x); }
+// Where a tail is below the least double, and Boost's own steps overflow, and throw.
+bool is_far_up(double x, double dof) { return !(x < dof + 1e4 * (1.0 + std::sqrt(2.0 * dof))); }
+bool is_far_down(double x, double dof) { return dof > 1000.0 && x < 0.05 * dof; }
+
+}  // namespace
+
+double chi_square_cdf(double x, double dof) {
+  if (is_far_down(x, dof)) return 0.0;
+  return is_far_up(x, dof) ? 1.0 : boost::math::cdf(boost::math::chi_squared(dof), x);
+}
 
 double chi_square_p_value(double x, double dof) {
-  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), x));
+  if (is_far_down(x, dof)) return 1.0;
+  return is_far_up(x, dof) ? 0.0
+                           : boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), x));
 }
 
 double chi_square_quantile(double probability, double dof) {

@@ -5,6 +5,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
+#include <limits>
 
 namespace patchlab::test {
 namespace {
@@ -66,6 +67,17 @@ TEST(NormalDistribution, LogCdfIsFiniteAndIncreasingEverywhere) {
     EXPECT_GT(now, before) << x;
     before = now;
   }
+}
+
+// Residuals of no size under a noise model of thousands of points, and the other way round.
+TEST(ChiSquare, TailsBeyondAllNumbersAreNoneOrAll) {
+  for (const double dof : {1.0, 100.0, 3807.0, 1e6})
+    for (const double share : {0.0, 1e-300, 1e-9, 0.01, 0.049, 0.051, 1.0, 1e3, 1e9, 1e300}) {
+      const double p = chi_square_p_value(share * dof, dof);
+      EXPECT_TRUE(p >= 0.0 && p <= 1.0) << share << " " << dof << " " << p;
+      EXPECT_NEAR(chi_square_cdf(share * dof, dof), 1.0 - p, 1e-12) << share << " " << dof;
+    }
+  EXPECT_EQ(chi_square_p_value(std::numeric_limits<double>::infinity(), 5.0), 0.0);
 }
 
 }  // namespace
