@@ -1,6 +1,5 @@
 #include "engine/cli/chain_file.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 
@@ -11,12 +10,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-bool is_covariance(const Matrix6d& cov) {
-  if ((cov - cov.transpose()).cwiseAbs().maxCoeff() > 1e-9 * cov.cwiseAbs().maxCoeff()) return false;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(cov, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] >= -1e-9 * cov.trace();
-}
-
 ChainElement read_element(const JsonPlace& place) {
   ChainElement element;
   element.pose.pose = {place["r"].numbers(3), place["t"].numbers(3)};
@@ -25,8 +18,7 @@ ChainElement read_element(const JsonPlace& place) {
     if (std::abs(phi->number()) != 1.0) phi->fail("must be 1 or -1");
   }
   if (const auto covariance = place.find("covariance")) {
-    element.pose.covariance = covariance->square_matrix(6);
-    if (!is_covariance(element.pose.covariance)) covariance->fail("is not symmetric positive semi-definite");
+    element.pose.covariance = covariance->covariance(6);
   }
   return element;
 }

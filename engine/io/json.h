@@ -52,6 +52,7 @@ class JsonPlace {
   std::string text() const;
   Eigen::VectorXd numbers(Eigen::Index size) const;        // an array of exactly `size` numbers
   Eigen::MatrixXd square_matrix(Eigen::Index size) const;  // an array of `size` such rows
+  Eigen::MatrixXd covariance(Eigen::Index size) const;     // such, symmetric positive semi-definite
   const nlohmann::json& value() const { return *value_; }
   bool ok() const { return !*error_; }  // nothing wrong so far, anywhere
 

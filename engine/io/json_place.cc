@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,12 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
+
+bool is_covariance(const Eigen::MatrixXd& cov) {
+  if ((cov - cov.transpose()).cwiseAbs().maxCoeff() > 1e-9 * cov.cwiseAbs().maxCoeff()) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(cov, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] >= -1e-9 * cov.trace();
+}
 
 const json& null_value() {
   static const json null;
@@ -124,6 +131,12 @@ Eigen::MatrixXd JsonPlace::square_matrix(Eigen::Index size) const {
   for (Eigen::Index i = 0; i < size; ++i) {
     matrix.row(i) = rows[static_cast<std::size_t>(i)].numbers(size).transpose();
   }
+  return matrix;
+}
+
+Eigen::MatrixXd JsonPlace::covariance(Eigen::Index size) const {
+  const Eigen::MatrixXd matrix = square_matrix(size);
+  if (!is_covariance(matrix)) fail("is not symmetric positive semi-definite");
   return matrix;
 }
 

@@ -1,5 +1,3 @@
-#include <Eigen/Eigenvalues>
-
 #include "engine/project/map_commands.h"
 #include "engine/project/parts_json.h"
 
@@ -8,17 +6,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-bool is_covariance(const Matrix6d& cov) {
-  if ((cov - cov.transpose()).cwiseAbs().maxCoeff() > 1e-9 * cov.cwiseAbs().maxCoeff()) return false;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(cov, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] >= -1e-9 * cov.trace();
-}
-
-Matrix6d read_covariance(const JsonPlace& place) {
-  const Matrix6d covariance = place.square_matrix(6);
-  must(is_covariance(covariance), place, "is not symmetric positive semi-definite");
-  return covariance;
-}
+Matrix6d read_covariance(const JsonPlace& place) { return place.covariance(6); }
 
 double read_sigma(const JsonPlace& place) {
   const double sigma = place.number();
