@@ -30,7 +30,8 @@ double lateral_variance(const Samples& samples, const SurfaceFit& fit) {
   return sum / static_cast<double>(samples.size());
 }
 
-SoftShape soft_edges(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet, Corners corners) {
+std::optional<SoftShape> soft_edges(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet,
+                                    Corners corners) {
   return fit_soft_edges(in_plane(feet), feet.weight, counted(feet), lateral_variance(samples, fit), corners);
 }
 
@@ -52,12 +53,14 @@ Eigen::Matrix<double, 11, 8 + chart_size> J_quad_local(const EdgeQuad& quad) {
 
 }  // namespace
 
-Patch quad_patch(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet, double containment) {
-  const SoftShape shape = soft_edges(samples, fit, feet, Corners::free);
-  const EdgeQuad quad = quad_of_edges(moved_out(shape.edges, shape.inset));
-  const EdgeMatrix J_quad_edges = quad_of_edges(shape.edges).J_quad_edges;
+std::optional<Patch> quad_patch(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet,
+                                double containment) {
+  const std::optional<SoftShape> shape = soft_edges(samples, fit, feet, Corners::free);
+  if (!shape) return std::nullopt;
+  const EdgeQuad quad = quad_of_edges(moved_out(shape->edges, shape->inset));
+  const EdgeMatrix J_quad_edges = quad_of_edges(shape->edges).J_quad_edges;
   Eigen::Matrix<double, 8 + chart_size, 8 + chart_size> cov = decltype(cov)::Zero();
-  cov.topLeftCorner<8, 8>() = J_quad_edges * shape.covariance * J_quad_edges.transpose();
+  cov.topLeftCorner<8, 8>() = J_quad_edges * shape->covariance * J_quad_edges.transpose();
   cov.bottomRightCorner<chart_size, chart_size>() = chart_covariance(fit);
   auto J = J_quad_local(quad);
   J.topRows<4>() *= std::sqrt(containment);
@@ -91,11 +94,12 @@ std::optional<PlaneDirection> soft_direction(const Samples& samples, const Surfa
   const double alpha = m[3] - m[0] * m[0], beta = 2.0 * (m[4] - m[0] * m[1]), phi = m[6] - m[1] * m[1];
   const double difference = std::hypot(beta, alpha - phi);
   if (alpha + phi + difference > alike * alike * (alpha + phi - difference)) return std::nullopt;
-  const SoftShape shape = soft_edges(samples, fit, feet, Corners::right);
-  const EdgeVector& e = shape.edges;
+  const std::optional<SoftShape> shape = soft_edges(samples, fit, feet, Corners::right);
+  if (!shape) return std::nullopt;
+  const EdgeVector& e = shape->edges;
   const bool long_across =
       e[1] + e[5] >= e[3] + e[7];  // width along the normal of edge 1 against that of edge 2
-  return PlaneDirection{e[0] + (long_across ? 0.0 : std::numbers::pi / 2.0), shape.covariance(0, 0)};
+  return PlaneDirection{e[0] + (long_across ? 0.0 : std::numbers::pi / 2.0), shape->covariance(0, 0)};
 }
 
 }  // namespace patchlab

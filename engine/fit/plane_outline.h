@@ -9,8 +9,10 @@
 namespace patchlab {
 
 // The convex quad about a plane's foot points, each half-diagonal times sqrt(Gamma), with the covariance of
-// all eleven parameters: the edges' own by their likelihood, the plane's by its fit.
-Patch quad_patch(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet, double containment);
+// all eleven parameters: the edges' own by their likelihood, the plane's by its fit. Nothing where the points
+// do not have four edges.
+std::optional<Patch> quad_patch(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet,
+                                double containment);
 
 // Eq. (31): a plane's rectangle as a convex quad, d = |(d_x, d_y)| four times, gamma = atan2(d_y, d_x).
 Patch quad_of_rectangle(const Patch& rectangle);

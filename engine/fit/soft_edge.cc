@@ -47,6 +47,16 @@ class SoftEdgeProblem {
                   double sigma)
       : points_(points), weights_(weights), used_(used), sigma_(sigma) {}
 
+  // Whether the sides turn left at each corner and are longer than their softness: beyond, a side is of no
+  // account, and the area says nothing.
+  bool is_quad(const EdgeVector& edges) const {
+    const Area<double> area = area_of<double>(edges);
+    for (int e = 0; e < 4; ++e)
+      if (!(std::sin(edges[2 * ((e + 1) % 4)] - edges[2 * e]) > 0.0 && area.gradient[2 * e + 1] > sigma_))
+        return false;
+    return true;
+  }
+
   Likelihood evaluate(const EdgeVector& edges) const {
     Likelihood all = area_term(edges);
     for (int e = 0; e < 4; ++e) add_edge(edges, e, all);
@@ -93,8 +103,9 @@ class SoftEdgeProblem {
   double used_, sigma_;
 };
 
-// Damped Newton in the free numbers of the shape.
-void climb(const SoftEdgeProblem& problem, Corners corners, SoftShape& shape) {
+// Damped Newton in the free numbers of the shape, from one quad to the next. False where it ends at none with
+// a covariance.
+bool climb(const SoftEdgeProblem& problem, Corners corners, SoftShape& shape) {
   const auto J = J_edges_free(corners);
   using Free = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
   Likelihood here = problem.evaluate(shape.edges);
@@ -110,24 +121,24 @@ void climb(const SoftEdgeProblem& problem, Corners corners, SoftShape& shape) {
     }
     const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1> free = J.transpose() * here.gradient;
     const EdgeVector step = J * solver.solve(free);
-    Likelihood there = problem.evaluate(shape.edges + step);
-    if (!(there.value >= here.value)) {
+    const EdgeVector moved = shape.edges + step;
+    std::optional<Likelihood> there;
+    if (problem.is_quad(moved)) there = problem.evaluate(moved);
+    if (!there || !(there->value >= here.value)) {
       damping *= 4.0;
       continue;
     }
     const double gain = step.dot(here.gradient);
-    shape.edges += step;
-    here = std::move(there);
+    shape.edges = moved;
+    here = *there;
     damping = std::max(damping / 5.0, 1e-12);
-    if (gain < 1e-12) {
-      shape.converged = true;
-      break;
-    }
+    if (gain < 1e-12) break;
   }
   shape.log_likelihood = here.value;
   const Free information = J.transpose() * here.information * J;
-  shape.covariance =
-      J * information.ldlt().solve(Free::Identity(information.rows(), information.cols())) * J.transpose();
+  if (!problem.is_quad(shape.edges) || information.llt().info() != Eigen::Success) return false;
+  shape.covariance = J * information.ldlt().solve(Free::Identity(J.cols(), J.cols())) * J.transpose();
+  return true;
 }
 
 // Points that end sharply, seen through a likelihood that expects them to end softly (sigma), put the edge
@@ -137,27 +148,29 @@ constexpr double inset_of_sharp_edges = 0.3375;
 
 }  // namespace
 
-SoftShape fit_soft_edges(const std::vector<Vector2d>& points, const std::vector<double>& weights, double used,
-                         double lateral_variance, Corners corners) {
+std::optional<SoftShape> fit_soft_edges(const std::vector<Vector2d>& points,
+                                        const std::vector<double>& weights, double used,
+                                        double lateral_variance, Corners corners) {
   std::vector<Vector2d> counted;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (weights[i] > 0.0) counted.push_back(points[i]);
   }
   const std::vector<Vector2d> hull = convex_hull(counted);
+  if (hull.size() < 3) return std::nullopt;
   std::vector<EdgeVector> begin = {rectangle_about(hull)};
   if (corners == Corners::free && hull.size() >= 4) begin.push_back(quad_about(hull));
-  SoftShape best;
-  best.log_likelihood = -std::numeric_limits<double>::infinity();
+  std::optional<SoftShape> best;
   for (const EdgeVector& edges : begin) {
     SoftShape shape{.edges = edges};
     double softened = 0.0, sigma = 0.0;
-    for (int pass = 0; pass < 2; ++pass) {
+    bool is_sound = true;
+    for (int pass = 0; pass < 2 && is_sound; ++pass) {
       softened = area_of<double>(shape.edges).value / (16.0 * used);
       sigma = std::sqrt(lateral_variance + softened);
-      climb(SoftEdgeProblem(points, weights, used, sigma), corners, shape);
+      is_sound = climb(SoftEdgeProblem(points, weights, used, sigma), corners, shape);
     }
     shape.inset = inset_of_sharp_edges * softened / sigma;
-    if (shape.log_likelihood > best.log_likelihood) best = shape;
+    if (is_sound && (!best || shape.log_likelihood > best->log_likelihood)) best = shape;
   }
   return best;
 }

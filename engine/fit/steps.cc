@@ -110,6 +110,18 @@ void bound_quad_by_moments(Workbench& work) {
   work.plan.type = quad;
 }
 
+void bound_quad_by_edges(Workbench& work) {
+  std::optional<Patch> quad = quad_patch(work.samples, work.surface, work.feet, work.containment);
+  if (!quad) {
+    work.notes.push_back(
+        {"no_four_edges", 0.0, 0.0,
+         "The points do not have four edges; the convex quad is the rectangle of their extent."});
+    return bound_quad_by_moments(work);
+  }
+  work.patch = std::move(*quad);
+  log_bound(work);
+}
+
 }  // namespace
 
 Result<Workbench> begin(const Observations& observations, const FitOptions& options) {
@@ -242,8 +254,7 @@ void bound_plane(Workbench& work) {
     }
     bound(work);
   } else if (extent) {
-    work.patch = quad_patch(work.samples, work.surface, work.feet, work.containment);
-    log_bound(work);
+    bound_quad_by_edges(work);
   } else {
     bound_quad_by_moments(work);
   }
@@ -259,6 +270,11 @@ Result<FitResult> conclude(Workbench& work) {
   }
   FitResult result;
   result.patch = conventional(work.patch, mean_viewpoint(work.samples));
+  if (const Result<void> valid = validate(result.patch); !valid) {
+    return Error{ErrorCode::no_finite_fit,
+                 "The fit ended at what is no patch; select another region, or another surface. " +
+                     valid.error().message};
+  }
   FitReport& report = result.report;
   report.method = work.options.method;
   report.bounds = work.bounds;
