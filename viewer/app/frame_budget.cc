@@ -38,6 +38,7 @@ std::size_t App::points_one_in() {
 }
 
 void App::draw_scene(const ViewCamera& camera) {
+  if (!platform_.drawing()) return;
   const Rect& view = layout_.view;
   Scene scene = stage_.scene();
   if (ground_) {

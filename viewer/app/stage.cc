@@ -43,6 +43,7 @@ void Stage::update(const Document& document, const ViewState& state, std::uint64
                      scale,      state.map,      state.sigma_of, shades_made_,  target().up};
   if (drawn_ == wanted) return;
   drawn_ = wanted;
+  forget_absent(document);
   const Theme colours = theme(state.theme);
   scene_ = {};
   notes_ = {};
@@ -64,6 +65,16 @@ void Stage::update(const Document& document, const ViewState& state, std::uint64
   add_patches(in, scale);
   take(maps_and_robots_.make({document, state, colours, scene_.origin, scale}));
   notes_.residual_colours = state.colours == PointColours::residual && find_patch(document, state.selected);
+}
+
+void Stage::forget_absent(const Document& document) {
+  const auto is_absent = [&](const auto& known) {
+    return std::ranges::find(document.scans, known.first, &ScanEntry::scan) == document.scans.end();
+  };
+  std::erase_if(shades_, is_absent);
+  std::erase_if(spacings_, is_absent);
+  std::erase_if(sigmas_, is_absent);
+  std::erase_if(surfaces_, [&](const auto& known) { return !find_patch(document, known.first); });
 }
 
 void Stage::add_points(const PointScene& in) {

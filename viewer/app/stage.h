@@ -82,6 +82,7 @@ class Stage {
 
   void fly_to(const OrbitCamera& to);
   OrbitCamera target() const { return flight_ ? flight_->to : camera; }
+  void forget_absent(const Document& document);
   void add_points(const PointScene& in);
   double metres_per_pixel(double viewport_height) const;  // at the pivot
   void add_patches(const PointScene& in, float scale);

@@ -51,6 +51,7 @@ void draw_colour_bar(const PanelInput& in, const ColourBar& bar, int place, ImDr
 
 // From `range.x()` to `range.y()`, with as many decimals as tell its ends apart.
 std::array<std::string, 3> bar_labels(const Eigen::Vector2d& range) {
+  if (!range.allFinite()) return {"", "unknown", ""};
   const double largest = std::max(range.cwiseAbs().maxCoeff(), 1e-6);
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(largest))), 0, 4);
   return {fixed(range.x(), decimals), fixed(range.mean(), decimals), fixed(range.y(), decimals)};

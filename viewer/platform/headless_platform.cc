@@ -97,7 +97,12 @@ class HeadlessPlatform : public Platform {
     ImGui::GetIO().DeltaTime = kFrameTime;
     frame_.begin(width(), height());
   }
-  void end_frame() override { frame_.end(); }
+  void end_frame() override {
+    if (drawing_)
+      frame_.end();
+    else
+      ImGui::Render();
+  }
   int width() const override { return canvas_ ? canvas_->width : width_; }
   int height() const override { return canvas_ ? canvas_->height : height_; }
   float scale() const override { return frame_.scale(); }
@@ -115,6 +120,8 @@ class HeadlessPlatform : public Platform {
     canvas_ = canvas;
     frame_.set_scale(canvas ? canvas->scale : own_scale_);
   }
+  void set_drawing(bool drawing) override { drawing_ = drawing; }
+  bool drawing() const override { return drawing_; }
   Image read_image() override { return frame_.read(); }
   std::string gl_renderer() const override { return gl_renderer_name(); }
 
@@ -141,7 +148,7 @@ class HeadlessPlatform : public Platform {
   Input input_;
   std::optional<Canvas> canvas_;
   float own_scale_ = 1.0f;
-  bool closing_ = false;
+  bool drawing_ = true, closing_ = false;
 };
 
 }  // namespace

@@ -94,7 +94,11 @@ class Platform {
   virtual void on_drop(std::function<void(const std::vector<std::string>&)> callback) = 0;
   // For the frames from now on. A window listens to its user only.
   virtual void feed(const Input& input) = 0;
-  // The last finished frame.
+  // Whether frames are drawn. Where they are not, panels are laid out and answer all the same. A window
+  // always draws.
+  virtual void set_drawing(bool drawing) = 0;
+  virtual bool drawing() const = 0;
+  // The last frame that was drawn.
   virtual Image read_image() = 0;
   // What draws, for bug reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
   virtual std::string gl_renderer() const = 0;

@@ -131,6 +131,8 @@ class WindowPlatform : public Platform {
     canvas_ = canvas;
     frame_.set_scale(canvas ? canvas->scale : own_scale_);
   }
+  void set_drawing(bool) override {}
+  bool drawing() const override { return true; }
   Image read_image() override { return frame_.read(); }
   std::string gl_renderer() const override { return gl_renderer_name(); }
 

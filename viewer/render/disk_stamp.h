@@ -1,16 +1,19 @@
 // Antialiased disks of one size, ready to be laid on a raster.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace patchlab::viewer {
 
-// A pixel of a disk, counted from the one that its centre lies in.
-struct StampPixel {
+// Four pixels of a row of a disk, the first `dx` to the right of the pixel that its centre lies in and `dy`
+// above.
+struct StampRun {
+  static constexpr int kPixels = 4;
   std::int16_t dx, dy;
-  std::uint8_t coverage;  // 1..255
+  std::array<std::uint32_t, kPixels> coverage;  // 0..255, once for each channel of a colour
 };
 
 // The disks of one diameter for each eighth of a pixel that their centre may lie at.
@@ -21,18 +24,18 @@ class DiskStamp {
   explicit DiskStamp(float diameter);  // px, at least 1
 
   float diameter() const { return diameter_; }
-  // How far its pixels lie from the one of the centre, at most.
+  // How far its pixels lie from the one of the centre, at most; runs end up to three further to the right.
   int reach() const { return reach_; }
   // `x_part`, `y_part`: 0..kParts - 1, in eighths of a pixel from its lower left corner.
-  std::span<const StampPixel> pixels(int x_part, int y_part) const {
+  std::span<const StampRun> runs(int x_part, int y_part) const {
     const auto at = static_cast<std::size_t>(y_part * kParts + x_part);
-    return std::span(pixels_).subspan(starts_[at], starts_[at + 1] - starts_[at]);
+    return std::span(runs_).subspan(starts_[at], starts_[at + 1] - starts_[at]);
   }
 
  private:
   float diameter_;
   int reach_ = 0;
-  std::vector<StampPixel> pixels_;
+  std::vector<StampRun> runs_;
   std::vector<std::size_t> starts_;
 };
 

@@ -23,6 +23,7 @@ struct PointsItem {
   float size = 2.0f;                  // px
   float set_back = 0.0f;              // m: surfaces and lines so close behind a point are drawn over it
   std::size_t step = 1;  // draws every step-th point only: a prime, while the camera moves over a large scan
+  bool operator==(const PointsItem&) const = default;
 };
 
 // Whether there is something to draw: as many colours as positions, and at least one.

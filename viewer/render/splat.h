@@ -16,13 +16,13 @@ struct Raster {
   std::vector<Rgba8> colours;
   std::vector<std::uint32_t> depths;  // of the depth buffer: 0 near to 2^32 - 1 far
 
-  // A point where it is drawn; kept from one picture to the next, for the memory's sake.
+  // A point where it is drawn. Room for some is kept from one picture to the next.
   struct Splat {
     int x_parts, y_parts;  // 1/8 px
     std::uint32_t depth;
     Rgba8 colour;
   };
-  std::vector<Splat> splats;
+  std::vector<Splat> splats, by_band;
 
   // The background alone.
   void clear(int w, int h, const Rgba& bottom, const Rgba& top);

@@ -1,5 +1,7 @@
 #include "viewer/render/splat_pass.h"
 
+#include <utility>
+
 namespace patchlab::viewer {
 namespace {
 
@@ -41,15 +43,23 @@ void SplatPass::upload() {
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-void SplatPass::draw(const Scene& scene, const View& view, const PointFade& fade) {
-  const Viewport& viewport = view.viewport;
-  raster_.clear(viewport.width, viewport.height, scene.background_bottom, scene.background_top);
+void SplatPass::make(const Scene& scene, const View& view, const PointFade& fade) {
+  Made wanted{scene.points,         view.clip_from_view,     view.view_from_local, fade,
+              scene.background_top, scene.background_bottom, view.viewport.width,  view.viewport.height};
+  if (made_ == wanted) return;
+  raster_.clear(view.viewport.width, view.viewport.height, scene.background_bottom, scene.background_top);
   for (const PointsItem& item : scene.points)
     if (complete(item)) splat(raster_, item, view, fade);
+  upload();
+  made_ = std::move(wanted);
+}
+
+void SplatPass::draw(const Scene& scene, const View& view, const PointFade& fade) {
   GLint bound = 0;
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
-  upload();
+  make(scene, view, fade);
+  const Viewport& viewport = view.viewport;
   glBlitFramebuffer(0, 0, viewport.width, viewport.height, viewport.x, viewport.y,
                     viewport.x + viewport.width, viewport.y + viewport.height,
                     GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);

@@ -35,6 +35,7 @@ struct PointFade {
   static constexpr float kFarthest = 0.35f;
   Eigen::Vector3f background;
   float nearest, depth;  // m
+  bool operator==(const PointFade&) const = default;
 };
 PointFade point_fade(const View& view, const Scene& scene);
 

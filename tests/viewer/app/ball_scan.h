@@ -18,7 +18,8 @@ namespace patchlab::viewer {
 inline constexpr double ball_radius = 0.06;  // m
 inline const Eigen::Vector3d ball_centre(0.0, 0.0, 0.8);
 
-inline Scan ball_scan() {
+// 320 / coarser x 240 / coarser pixels.
+inline Scan ball_scan(std::uint32_t coarser = 1) {
   const auto cast = [](const Eigen::Vector3d& origin,
                        const Eigen::Vector3d& direction) -> std::optional<Hit> {
     const Eigen::Vector3d to_ball = ball_centre - origin;
@@ -27,7 +28,8 @@ inline Scan ball_scan() {
     if (rest > 0) return Hit{(b - std::sqrt(rest)) / a, 0};
     return Hit{(1.0 - origin.z()) / direction.z(), 1};
   };
-  Camera camera{320, 240, 262.5, 262.5, 159.5, 119.5, {}};
+  const double focal = 262.5 / coarser;
+  Camera camera{320 / coarser, 240 / coarser, focal, focal, 160.0 / coarser - 0.5, 120.0 / coarser - 0.5, {}};
   camera.pose.stated = true;
   return simulate_scan(camera, cast, *noise_model("kinect1"), 7);
 }
@@ -44,9 +46,9 @@ class TestFolder {
   TestFolder& operator=(const TestFolder&) = delete;
   ~TestFolder() { std::filesystem::remove_all(path_); }
   const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path ball() const {
+  std::filesystem::path ball(std::uint32_t coarser = 1) const {
     const std::filesystem::path file = path_ / "ball.pcd";
-    if (!std::filesystem::exists(file)) (void)write_file(file, write_pcd(ball_scan())).ok();
+    if (!std::filesystem::exists(file)) (void)write_file(file, write_pcd(ball_scan(coarser))).ok();
     return file;
   }
 

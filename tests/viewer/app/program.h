@@ -39,6 +39,8 @@ class Program {
   App& app() { return *app_; }
   const Document& document() { return app_->workbench().document(); }
 
+  // Frames from now on are drawn, or only laid out.
+  void set_drawing(bool drawing) { platform_->set_drawing(drawing); }
   void settle() { run_until_settled(*app_, *platform_); }
   void play(const std::string& log) {
     const auto events = parse_input_log(log, "test");

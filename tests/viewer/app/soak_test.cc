@@ -1,11 +1,16 @@
-// Seeded random use of the whole program: nothing breaks, and the journal holds what is shown.
-// PATCHLAB_SOAK sets how many actions are tried.
+// Seeded random use of the whole program: nothing breaks, memory stays flat, and the journal holds what is
+// shown. PATCHLAB_SOAK sets how many actions are tried. Every 25th handful is drawn.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
+#include <vector>
 
+#include "engine/patch/marginals.h"
 #include "tests/support/seeded_random.h"
 #include "tests/viewer/app/ball_scan.h"
 #include "tests/viewer/app/program.h"
@@ -103,31 +108,101 @@ std::string fingerprint(const Document& document) {
   return text;
 }
 
-TEST(Soak, RandomUseBreaksNothingAndTheJournalHoldsWhatIsShown) {
+extern "C" std::size_t __sanitizer_get_current_allocated_bytes() __attribute__((weak));
+
+// Of the heap, in use.
+double megabytes() {
+  const std::size_t bytes = __sanitizer_get_current_allocated_bytes
+                                ? __sanitizer_get_current_allocated_bytes()
+                                : mallinfo2().uordblks;
+  return 1e-6 * static_cast<double>(bytes);
+}
+
+class Soak : public testing::Test {
+ protected:
+  static constexpr int together = 4, a_sitting = 500, drawn_one_in = 25;
+
+  void SetUp() override {
+    program.app().open(folder.ball(4));
+    program.settle();
+    program.app().workbench().save_journal(start);
+    program.settle();
+  }
+
+  // What failed can be opened.
+  void TearDown() override {
+    if (HasFailure())
+      std::filesystem::copy(folder.path(), "soak_failed", std::filesystem::copy_options::recursive);
+  }
+
+  // From the start of a journal to its end.
+  void sit(int actions) {
+    program.app().open(start);
+    program.settle();
+    Monkey monkey(program, random);
+    for (int done = 0; done < actions; done += together) {
+      std::string log;
+      for (int i = 0; i < together; ++i) log += monkey.next();
+      SCOPED_TRACE(log);
+      said << log << std::flush;
+      program.set_drawing(done / together % drawn_one_in == 0);
+      program.play(log);
+      ASSERT_FALSE(program.app().widgets().contains("files/path")) << "random input must not reach files";
+      expect_sound_patches();
+      if (HasFatalFailure()) return;
+    }
+    program.play("key Esc\nkey Esc\nkey Esc\nwait\n");
+    expect_journal_of_what_is_shown();
+  }
+
+  void expect_sound_patches() {
+    for (const PatchEntry& entry : program.document().patches) {
+      if (!entry.fit) continue;
+      const Patch& patch = entry.fit->patch;
+      const Result<void> valid = validate(patch);
+      ASSERT_TRUE(valid) << entry.name << ": " << valid.error().message;
+      for (const Vector2d& u : outline(boundary(patch), 16))
+        ASSERT_TRUE(std::isfinite(height_sigma(patch, u)))
+            << name(patch.type->surface) << " " << patch.parameters;
+    }
+  }
+  void expect_journal_of_what_is_shown() {
+    const Session& session = program.app().workbench().session();
+    const Result<Document> replayed = replay(session.journal());
+    ASSERT_TRUE(replayed) << replayed.error().message;
+    EXPECT_EQ(fingerprint(*replayed), fingerprint(session.document()));
+    for (const Error& error : program.app().errors())
+      ASSERT_NE(error.code, ErrorCode::unwritable) << error.message;
+    steps += session.history().size();
+  }
+
+  test::SeededRandom random;
+  std::ofstream said{"soak.log"};  // all that was done, also where the program ends
+  const TestFolder folder;
+  const std::filesystem::path start = folder.path() / "start.patchlab";
+  Program program{folder.path() / "state", {1.0f, ThemeChoice::dark}, 800, 500};
+  std::size_t steps = 0;
+};
+
+TEST_F(Soak, RandomUseBreaksNothingAndTheJournalHoldsWhatIsShown) {
   const char* wanted = std::getenv("PATCHLAB_SOAK");
   const int actions = wanted ? std::atoi(wanted) : 24;
-  constexpr int together = 4;
-  test::SeededRandom random;
-  const TestFolder folder;
-  Program program(folder.path() / "state", {1.0f, ThemeChoice::dark}, 960, 600);
-  program.app().open(folder.ball());
-  program.settle();
-  Monkey monkey(program, random);
-  for (int done = 0; done < actions; done += together) {
-    std::string log;
-    for (int i = 0; i < together; ++i) log += monkey.next();
-    SCOPED_TRACE(log);
-    program.play(log);
-    ASSERT_FALSE(program.app().widgets().contains("files/path")) << "random input must not reach files";
+  std::vector<double> in_use;  // MB, where each sitting but the first starts
+  for (int done = 0; done < actions && !HasFatalFailure(); done += a_sitting) {
+    if (done > 0) {
+      program.app().open(start);
+      program.settle();
+      in_use.push_back(megabytes());
+      std::cout << done << " actions, " << steps << " steps, " << program.app().errors().size()
+                << " errors told, " << in_use.back() << " MB in use" << std::endl;
+    }
+    sit(std::min(a_sitting, actions - done));
   }
-  program.play("key Esc\nkey Esc\nkey Esc\nwait\n");
-  const Session& session = program.app().workbench().session();
-  const Result<Document> replayed = replay(session.journal());
-  ASSERT_TRUE(replayed) << replayed.error().message;
-  EXPECT_EQ(fingerprint(*replayed), fingerprint(session.document()));
-  std::cout << session.history().size() << " steps, " << program.app().errors().size() << " errors told\n";
-  for (const Error& error : program.app().errors())
-    EXPECT_NE(error.code, ErrorCode::unwritable) << error.message;
+  // The second half of them holds no more than the first, but for what is said and never forgotten.
+  const auto middle = in_use.begin() + static_cast<std::ptrdiff_t>(in_use.size() / 2);
+  if (in_use.size() >= 4) {
+    EXPECT_LE(*std::max_element(middle, in_use.end()), *std::max_element(in_use.begin(), middle) + 2.0);
+  }
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include "tests/viewer/render/picture.h"
 
@@ -58,6 +60,39 @@ TEST_P(RendererTest, BackgroundRunsFromTopToBottom) {
   EXPECT_GT(at(image, 10, 0).r, 250);
   EXPECT_GT(at(image, 10, 99).b, 250);
   EXPECT_EQ(at(image, 10, 50).r, at(image, 190, 50).r);
+}
+
+// What is kept from the last picture is only what has not changed.
+TEST_P(RendererTest, WhateverChangesIsDrawnAnew) {
+  scene.points = {points({{0.5f, 0.3f, -1.0f}, {-0.5f, 0.1f, -2.0f}}, kRed, 9.0f)};
+  ViewCamera camera = straight_camera();
+  const std::vector<std::function<void()>> changes = {
+      [&] { scene.points[0].colours = share(std::vector<Rgba8>(2, kGreen)); },
+      [&] {
+        scene.points[0].positions = share<Vector3f>({{0.6f, 0.3f, -1.0f}, {-0.5f, 0.0f, -2.0f}});
+      },
+      [&] { scene.points[0].size = 15.0f; },
+      [&] { scene.points[0].step = 2; },
+      [&] {
+        scene.points.push_back(points({{0.0f, -0.3f, -2.0f}}, kBlue));
+      },
+      [&] {
+        scene.background_top = {0.2f, 0.3f, 0.4f, 1.0f};
+      },
+      [&] { scene.fades = false; },
+      [&] { camera.position.x() += 0.1; },
+      [&] { camera.fov_y *= 0.9; }};
+  Image last = studio_->take(scene, camera);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    SCOPED_TRACE(i);
+    changes[i]();
+    const Image next = studio_->take(scene, camera), again = studio_->take(scene, camera);
+    EXPECT_TRUE(next.rgb != last.rgb);
+    EXPECT_TRUE(again.rgb == next.rgb);
+    last = next;
+    renew_studio();
+    EXPECT_TRUE(studio_->take(scene, camera).rgb == next.rgb);
+  }
 }
 
 TEST_P(RendererTest, PointIsADiskAtItsPixel) {
