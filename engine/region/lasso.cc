@@ -3,29 +3,30 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <memory>
+#include <numeric>
 
-#include "engine/region/cells_of_points.h"
+#include "engine/base/parallel.h"
+#include "engine/region/lasso_candidates.h"
 #include "engine/region/polygon_mask.h"
 #include "engine/region/projector.h"
 
 namespace patchlab {
 namespace {
 
-constexpr std::size_t block = 1024;  // points at a time
+constexpr std::size_t block = LassoCandidates::capacity;  // points at a time
+constexpr std::size_t points_a_part = 64 * block;         // that one thread looks at
 
-// Of a block of points: those whose cell says inside, and those it leaves open that are.
+// Leaves out the open candidates that are not inside.
 template <class IsInside>
-void add_block(const Scan& scan, const CellCamera& camera, const PolygonMask::Grid& grid, std::size_t first,
-               const IsInside& is_inside, std::vector<std::uint32_t>& selected) {
-  const std::size_t count = std::min(block, scan.size() - first);
-  std::array<std::int32_t, block> cells;
-  std::array<std::uint32_t, block> open;
-  cells_of_points(camera, scan.positions[first].data(), count, cells.data());
-  const std::size_t found = not_outside(grid, cells.data(), count, open.data());
-  for (std::size_t k = 0; k < found; ++k) {
-    const std::uint32_t i = open[k], id = static_cast<std::uint32_t>(first) + i;
-    if (grid.cells[cells[i]] == PolygonMask::inside || is_inside(id)) selected.push_back(id);
+void decide(LassoCandidates& found, const IsInside& is_inside) {
+  std::size_t kept = found.open_count > 0 ? found.open[0] : found.count;
+  for (std::size_t i = kept, next = 0; i < found.count; ++i) {
+    const bool is_open = next < found.open_count && found.open[next] == i;
+    next += is_open ? 1 : 0;
+    if (!is_open || is_inside(found.points[i])) found.points[kept++] = found.points[i];
   }
+  found.count = kept;
 }
 
 }  // namespace
@@ -55,8 +56,26 @@ std::vector<std::uint32_t> select_lasso(const Scan& scan, const ViewCamera& came
     return selected;
   }
   const CellCamera cells = cell_camera(camera, scan.origin, grid);
-  for (std::size_t first = 0; first < scan.size(); first += block) {
-    add_block(scan, cells, grid, first, is_inside, selected);
+  // Each chunk has its own place: memory that nothing is written to costs nothing.
+  const auto places = std::make_unique_for_overwrite<std::uint32_t[]>(scan.size());
+  std::vector<std::size_t> counts(chunk_count(scan.size(), points_a_part));
+  for_each_chunk(scan.size(), points_a_part, [&](const Chunk& chunk) {
+    LassoCandidates found;
+    std::uint32_t* const begin = places.get() + chunk.first;
+    std::uint32_t* end = begin;
+    for (std::size_t first = chunk.first; first < chunk.last; first += block) {
+      const std::size_t count = std::min(block, chunk.last - first);
+      find_candidates(cells, grid, scan.positions[first].data(), count, static_cast<std::uint32_t>(first),
+                      found);
+      decide(found, is_inside);
+      end = std::copy_n(found.points.begin(), found.count, end);
+    }
+    counts[chunk.number] = static_cast<std::size_t>(end - begin);
+  });
+  selected.reserve(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+  for (std::size_t part = 0; part < counts.size(); ++part) {
+    const std::uint32_t* const begin = places.get() + part * points_a_part;
+    selected.insert(selected.end(), begin, begin + counts[part]);
   }
   return selected;
 }

@@ -11,6 +11,8 @@
 #include "engine/fit/fit_patch.h"
 #include "engine/region/lasso.h"
 #include "engine/region/observe.h"
+#include "engine/region/polygon_mask.h"
+#include "engine/region/projector.h"
 #include "engine/region/visibility.h"
 #include "viewer/camera/orbit_camera.h"
 #include "viewer/platform/platform.h"
@@ -69,10 +71,12 @@ Contour contour(const ViewCamera& camera) {
 }
 
 std::vector<std::uint32_t> plain_lasso(const Scan& scan, const ViewCamera& camera, const Contour& corners) {
+  const Projector project_point(camera);
+  const std::vector<PolygonEdge> edges = polygon_edges(corners);
   std::vector<std::uint32_t> ids;
   for (std::uint32_t i = 0; i < scan.size(); ++i) {
-    const Projected p = project(camera, scan.point(i));
-    if (p.depth > camera.near_plane && inside_polygon(corners, p.x, p.y)) ids.push_back(i);
+    const Projected p = project_point(scan.point(i));
+    if (in_depth(camera, p.depth) && inside_polygon(edges, p.x, p.y)) ids.push_back(i);
   }
   return ids;
 }

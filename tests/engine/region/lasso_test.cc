@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "engine/base/random.h"
-#include "engine/region/cells_of_points.h"
+#include "engine/region/lasso_candidates.h"
 #include "engine/region/polygon_mask.h"
 
 namespace patchlab {
@@ -305,31 +305,45 @@ TEST(SelectLasso, EqualsTheExactTestFromAnyCamera) {
   }
 }
 
-TEST(CellsOfPoints, AreSureOfNearlyAllAndTheSameOnAnyProcessor) {
+using Candidates = void (*)(const CellCamera&, const PolygonMask::Grid&, const float*, std::size_t,
+                            std::uint32_t, LassoCandidates&);
+
+TEST(LassoCandidates, AreExactWhereTheyAreNotLeftOpenAndFewAre) {
   Random random(6);
-  constexpr std::size_t points = 50'000;
-  std::vector<float> xyz;
-  for (std::size_t i = 0; i < points; ++i) {
-    const Eigen::Vector3f q = random.normal3().cast<float>();
-    xyz.insert(xyz.end(), {q.x(), q.y(), q.z() - 5.0F});
-  }
-  const PolygonMask mask(circle({640, 400}, 250, 200));
-  const PolygonMask::Grid grid = mask.grid();
-  const CellCamera camera = cell_camera(ViewCamera{}, Eigen::Vector3d::Zero(), grid);
-  std::vector<std::int32_t> fast(points), plain(points);
-  cells_of_points(camera, xyz.data(), points, fast.data());
-  cells_of_points_plain(camera, xyz.data(), points, plain.data());
-  const auto unsure = static_cast<std::int32_t>(grid.columns * grid.rows + 1);
-  EXPECT_LT(std::count(fast.begin(), fast.end(), unsure), 50);
-  std::vector<std::uint32_t> found(points), found_plainly(points);
-  const std::size_t few = points - 3;
-  found.resize(not_outside(grid, fast.data(), few, found.data()));
-  found_plainly.resize(not_outside_plain(grid, fast.data(), few, found_plainly.data()));
-  EXPECT_GT(found.size(), 1'000u);
-  EXPECT_EQ(found, found_plainly);
-  for (std::size_t i = 0; i < points; ++i) {
-    const PolygonMask::Cell a = grid.cells[fast[i]], b = grid.cells[plain[i]];
-    EXPECT_TRUE(a == b || a == PolygonMask::on_edge || b == PolygonMask::on_edge) << i;
+  const Contour contour = circle({640, 400}, 250, 200);
+  const PolygonMask mask(contour);
+  for (const bool perspective : {true, false}) {
+    ViewCamera view;
+    view.perspective = perspective;
+    view.height = 5.0;
+    view.far_plane = 6.5;
+    const CellCamera camera = cell_camera(view, Eigen::Vector3d::Zero(), mask.grid());
+    for (const Candidates candidates : {find_candidates, find_candidates_plain}) {
+      std::size_t found_inside = 0, found_open = 0;
+      for (std::uint32_t first = 0; first < 50; ++first) {
+        std::vector<Eigen::Vector3f> points(LassoCandidates::capacity - first);
+        for (Eigen::Vector3f& q : points) q = random.normal3().cast<float>() - Eigen::Vector3f(0, 0, 5);
+        const Scan scan = scan_of(points);
+        const std::vector<std::uint32_t> exact = tested_one_by_one(scan, view, contour);
+        LassoCandidates found;
+        candidates(camera, mask.grid(), points.front().data(), points.size(), 0, found);
+        const std::vector<std::uint32_t> all(found.points.begin(), found.points.begin() + found.count);
+        EXPECT_TRUE(std::ranges::is_sorted(all));
+        EXPECT_TRUE(std::ranges::includes(all, exact));
+        std::vector<std::uint32_t> sure;
+        for (std::uint32_t i = 0, next = 0; i < found.count; ++i) {
+          if (next < found.open_count && found.open[next] == i)
+            ++next;
+          else
+            sure.push_back(found.points[i]);
+        }
+        EXPECT_TRUE(std::ranges::includes(exact, sure));
+        found_inside += exact.size();
+        found_open += found.open_count;
+      }
+      EXPECT_GT(found_inside, 1'000u);
+      EXPECT_LT(found_open, found_inside / 10);
+    }
   }
 }
 
