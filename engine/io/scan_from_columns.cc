@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/large_pages.h"
 #include "engine/io/covariance_columns.h"
 #include "engine/io/place_points.h"
 #include "engine/io/plausible.h"
@@ -16,7 +17,7 @@ using Names3 = std::array<std::string_view, 3>;
 using Columns = std::span<const Column>;
 
 // Of a point in memory: its position, then what of it is kept besides and while it is read.
-constexpr std::uint64_t position_bytes = 13, double_bytes = 24, colour_bytes = 27, label_bytes = 12,
+constexpr std::uint64_t position_bytes = 13, double_bytes = 24, colour_bytes = 3, label_bytes = 12,
                         intensity_bytes = 12, viewpoint_bytes = 36, covariance_bytes = 72;
 
 constexpr Names3 coordinate_names = {"x", "y", "z"};
@@ -107,27 +108,33 @@ Result<Points> viewpoints_of(const Scan& scan, Columns columns, std::size_t poin
                                    std::string(viewpoint_names[missing]) + "' is missing.");
 }
 
+// One in each four bytes: blue, green, red from the lowest.
+void unpack_colours(Scan& scan, const Column& column, std::size_t points) {
+  const std::array<std::size_t, 3> places =
+      column.swapped ? std::array<std::size_t, 3>{1, 2, 3} : std::array<std::size_t, 3>{2, 1, 0};
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(column.first + i * column.stride);
+    scan.colours[i] = {bytes[places[0]], bytes[places[1]], bytes[places[2]]};
+  }
+}
+
 void fill_colours(Scan& scan, Columns columns, std::size_t points) {
   for (const Column* packed : find_columns(columns, packed_colour_names)) {
     if (packed == nullptr || size_of(packed->type) != 4) continue;
-    Column bits = *packed;
-    bits.type = Scalar::uint32;
-    for (const double value : values(bits, points)) {
-      const auto rgb = static_cast<std::uint32_t>(value);
-      scan.colours.push_back({static_cast<std::uint8_t>(rgb >> 16 & 255),
-                              static_cast<std::uint8_t>(rgb >> 8 & 255),
-                              static_cast<std::uint8_t>(rgb & 255)});
-    }
-    return;
+    reserve_large(scan.colours, points);
+    scan.colours.resize(points);
+    return unpack_colours(scan, *packed, points);
   }
   for (const Names3& names : colour_names) {
     const auto found = find_columns(columns, names);
     if (!is_complete(found) ||
         std::ranges::any_of(found, [](const Column* c) { return c->type != Scalar::uint8; }))
       continue;
-    for (const Eigen::Vector3d& colour : gather3(found, points)) {
-      const Eigen::Matrix<std::uint8_t, 3, 1> bytes = colour.cast<std::uint8_t>();
-      scan.colours.push_back({bytes(0), bytes(1), bytes(2)});
+    reserve_large(scan.colours, points);
+    scan.colours.resize(points);
+    for (std::size_t i = 0; i < points; ++i) {
+      for (std::size_t k = 0; k < 3; ++k)
+        scan.colours[i][k] = static_cast<std::uint8_t>(found[k]->first[i * found[k]->stride]);
     }
     return;
   }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 
+#include "engine/base/large_pages.h"
 #include "engine/base/parallel.h"
 #include "engine/region/lasso_candidates.h"
 #include "engine/region/polygon_mask.h"
@@ -72,7 +73,7 @@ std::vector<std::uint32_t> select_lasso(const Scan& scan, const ViewCamera& came
     }
     counts[chunk.number] = static_cast<std::size_t>(end - begin);
   });
-  selected.reserve(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+  reserve_large(selected, std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
   for (std::size_t part = 0; part < counts.size(); ++part) {
     const std::uint32_t* const begin = places.get() + part * points_a_part;
     selected.insert(selected.end(), begin, begin + counts[part]);

@@ -45,13 +45,15 @@ Eigen::Vector3d sensor_position(const Scan& scan, std::size_t id) {
 }
 
 void use_sensor_model(const Scan& scan, const NoiseModel& model, Observations& observations) {
+  const bool one_sensor = observations.viewpoints.empty();
   std::vector<Viewpoint> sensors;
   for (std::size_t i = 0; i < observations.viewpoints.size(); ++i) {
     sensors.push_back(looking_at(observations.viewpoints[i], observations.points[i]));
   }
-  observations.covariance_at = [model, sensors = std::move(sensors), one = scan.viewpoint](
-                                   std::size_t i, const Eigen::Vector3d& foot) {
-    return covariance(model, sensors.empty() ? one : sensors[i], foot);
+  observations.covariance_at = [model, one_sensor, sensors = std::move(sensors), R = rotation(scan.viewpoint),
+                                position = scan.viewpoint.position](std::size_t i,
+                                                                    const Eigen::Vector3d& foot) {
+    return one_sensor ? covariance(model, R, position, foot) : covariance(model, sensors[i], foot);
   };
   observations.covariances.reserve(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {

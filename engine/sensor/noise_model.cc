@@ -75,8 +75,12 @@ NoiseModel default_noise_model(const Scan& scan) {
 
 Eigen::Matrix3d covariance(const NoiseModel& model, const Viewpoint& viewpoint,
                            const Eigen::Vector3d& point) {
-  const Eigen::Matrix3d world_from_sensor = rotation(viewpoint);
-  const Eigen::Vector3d point_sensor = world_from_sensor.transpose() * (point - viewpoint.position);
+  return covariance(model, rotation(viewpoint), viewpoint.position, point);
+}
+
+Eigen::Matrix3d covariance(const NoiseModel& model, const Eigen::Matrix3d& world_from_sensor,
+                           const Eigen::Vector3d& sensor_position, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d point_sensor = world_from_sensor.transpose() * (point - sensor_position);
   const Eigen::Matrix3d cov =
       world_from_sensor * covariance_in_sensor(model, point_sensor) * world_from_sensor.transpose();
   return 0.5 * (cov + cov.transpose());

@@ -66,6 +66,9 @@ NoiseModel default_noise_model(const Scan& scan);
 // Covariance of a point in the frame of the points, m^2; symmetric, positive semi-definite. Precondition: not
 // from_file.
 Eigen::Matrix3d covariance(const NoiseModel& model, const Viewpoint& viewpoint, const Eigen::Vector3d& point);
+// The same of a sensor whose rotation is known already, for many points of one.
+Eigen::Matrix3d covariance(const NoiseModel& model, const Eigen::Matrix3d& world_from_sensor,
+                           const Eigen::Vector3d& sensor_position, const Eigen::Vector3d& point);
 // The same in the sensor's optical frame (z forward), for the range camera.
 Eigen::Matrix3d covariance_in_sensor(const NoiseModel& model, const Eigen::Vector3d& point_sensor);
 
