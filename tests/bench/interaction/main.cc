@@ -7,6 +7,9 @@
 #include <ctime>
 #include <functional>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/fit/fit_patch.h"
 #include "engine/region/lasso.h"
@@ -14,6 +17,7 @@
 #include "engine/region/polygon_mask.h"
 #include "engine/region/projector.h"
 #include "engine/region/visibility.h"
+#include "tests/bench/round_robin/round_robin.h"
 #include "viewer/camera/orbit_camera.h"
 #include "viewer/platform/platform.h"
 #include "viewer/render/renderer.h"
@@ -81,25 +85,31 @@ std::vector<std::uint32_t> plain_lasso(const Scan& scan, const ViewCamera& camer
   return ids;
 }
 
-void compare_lassos(std::size_t points, const ViewCamera& camera) {
+std::string compare_lassos(std::size_t points, const ViewCamera& camera) {
   const std::shared_ptr<const Scan> scan = ball_and_wall(points);
   const Contour corners = contour(camera);
   std::vector<std::uint32_t> ours, plain;
   const double ours_ms = least_ms([&] { ours = select_lasso(*scan, camera, corners); });
   const double plain_ms = least_ms([&] { plain = plain_lasso(*scan, camera, corners); });
-  std::printf(
-      "lasso over %zu points, 200 corners: %.1f ms; plain polygon test %.0f ms, %.1f times longer; %s\n",
+  char text[256];
+  std::snprintf(
+      text, sizeof text,
+      "\nA lasso of 200 corners over %zu points in no order: %.1f ms; a plain polygon test of every point %.0f ms, %.0f "
+      "times longer; %s.\n",
       points, ours_ms, plain_ms, plain_ms / ours_ms,
       ours == plain ? "the same points" : "NOT THE SAME POINTS");
+  return text;
 }
 
-void time_stages(std::size_t points, const ViewCamera& camera) {
+// What was timed, in order, ms.
+using Stages = std::vector<std::pair<std::string, double>>;
+
+void time_stages(std::size_t points, const ViewCamera& camera, Stages& stages) {
   const std::shared_ptr<const Scan> scan = ball_and_wall(points);
   const NoiseModel noise = *noise_model("isotropic:0.001");
   const Contour corners = contour(camera);
   std::vector<std::uint32_t> inside, seen;
-  std::printf("one turn of the loop at %zu points, ms:\n", points);
-  const auto say = [](const char* stage, double ms) { std::printf("  %-46s %8.2f\n", stage, ms); };
+  const auto say = [&](const std::string& stage, double ms) { stages.emplace_back(stage, ms); };
   const double mask = least_ms([&] { inside = select_lasso(*scan, camera, corners); });
   say("mask: points inside the lasso", mask);
   VisibilityCache cache;
@@ -148,19 +158,49 @@ void time_stages(std::size_t points, const ViewCamera& camera) {
   say(("frame, by " + (*platform)->gl_renderer()).c_str(), least_ms(frame));
 }
 
+// A line a stage, a column a size.
+std::string stages_table(const std::vector<std::size_t>& sizes, const ViewCamera& camera) {
+  std::vector<Stages> all(sizes.size());
+  std::string text = "| one turn of the loop, ms |", rule = "\n|---|";
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    time_stages(sizes[k], camera, all[k]);
+    text += " " + std::to_string(sizes[k]) + " points |";
+    rule += "---|";
+  }
+  text += rule + "\n";
+  for (std::size_t row = 0; row < all.front().size(); ++row) {
+    text += "| " + all.front()[row].first + " |";
+    for (const Stages& stages : all) {
+      char ms[32] = " - |";
+      if (row < stages.size()) std::snprintf(ms, sizeof ms, " %.2f |", stages[row].second);
+      text += ms;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 }  // namespace patchlab::viewer
 
 int main(int argc, char** argv) {
   using namespace patchlab::viewer;
-  const double points = argc > 1 ? std::atof(argv[1]) : 1e6;
+  std::vector<std::size_t> sizes;
+  for (int i = 1; i < argc; ++i) {
+    if (const double points = std::atof(argv[i]); points >= 1.0)
+      sizes.push_back(static_cast<std::size_t>(points));
+  }
+  if (sizes.empty()) sizes = {125'000, 1'000'000, 5'000'000, 20'000'000};
   OrbitCamera orbit;
   orbit.pivot = {0, 0, 1.8};
   orbit.up = -Eigen::Vector3d::UnitY();
   orbit.elevation = 0.0;
   orbit.distance = 1.8;
   const patchlab::ViewCamera camera = view_camera(orbit, 1280, 800);
-  compare_lassos(static_cast<std::size_t>(5 * points), camera);
-  time_stages(static_cast<std::size_t>(points), camera);
-  return 0;
+  const std::string text =
+      patchlab::bench::date_and_machine() +
+      ". A ball before a wall, points in no order, a lasso round the ball. Least processor time of "
+      "five, all threads' together.\n\n" +
+      stages_table(sizes, camera) + compare_lassos(5'000'000, camera);
+  return patchlab::bench::report(argc, argv, "interaction", text);
 }
