@@ -233,6 +233,7 @@ Result<void> run(Fit& fit, Document& document, const ApplyOptions& options) {
   PatchEntry& patch = find_or_add(document.patches, fit.patch);
   patch.scan = region->scan;
   patch.region = region->id;
+  patch.colour = region->colour;
   patch.options = fit.options;
   const Result<void> fitted = fit_to(patch, *find_scan(document, patch.scan), *region->points, options);
   if (!fitted) return fitted;
@@ -283,6 +284,17 @@ Result<void> with_entry(Document& document, const std::string& id, Change change
 
 Result<void> run(Rename& rename, Document& document, const ApplyOptions&) {
   return with_entry(document, rename.target, [&](auto& entry) { entry.name = rename.name; });
+}
+
+Result<void> run(SetColour& set, Document& document, const ApplyOptions&) {
+  const PatchEntry* patch = find_patch(document, set.target);
+  const std::string of = patch ? patch->region : set.target;
+  RegionEntry* region = find(document.regions, of);
+  if (!region && !patch) return unknown("region or patch", set.target);
+  if (region) region->colour = set.colour;
+  for (PatchEntry& entry : document.patches)
+    if (entry.region == of) entry.colour = set.colour;
+  return {};
 }
 
 Result<void> run(Show& show, Document& document, const ApplyOptions&) {

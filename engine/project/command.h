@@ -15,6 +15,7 @@
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
 #include "engine/io/scan_options.h"
+#include "engine/project/colour.h"
 #include "engine/project/document.h"
 #include "engine/region/lasso.h"
 #include "engine/region/visibility.h"
@@ -96,6 +97,11 @@ struct Merge {
 struct Rename {
   std::string target, name;  // an id
 };
+// Of a region and its patches, or by way of one of them; without a colour they get the viewer's own again.
+struct SetColour {
+  std::string target;  // an id
+  std::optional<Colour> colour;
+};
 // With a scan go its regions and patches; a patch stays when its region goes.
 struct Delete {
   std::string target;
@@ -108,7 +114,7 @@ struct Undo {};
 struct Redo {};
 
 using Command = std::variant<OpenScan, SetNoise, Select, Reshape, Fit, OpenMap, OpenRobot, SetJoint, Place,
-                             Merge, Rename, Delete, Show, Undo, Redo>;
+                             Merge, Rename, SetColour, Delete, Show, Undo, Redo>;
 
 // The files that a command names, to name them anew where the journal moves; empty ones are left out.
 std::vector<std::string*> files_of(Command& command);

@@ -193,6 +193,21 @@ ordered_json write(const Rename& rename) {
   return {{"do", "rename"}, {"target", rename.target}, {"name", rename.name}};
 }
 
+void read(const JsonPlace& place, SetColour& set) {
+  place.only({"do", "target", "colour"});
+  set.target = place["target"].text();
+  const std::optional<JsonPlace> colour = place.find("colour");
+  if (!colour) return;
+  set.colour = colour_from_text(colour->text());
+  if (!set.colour) colour->fail("is no colour such as #e69f00");
+}
+
+ordered_json write(const SetColour& set) {
+  ordered_json object = {{"do", "set_colour"}, {"target", set.target}};
+  if (set.colour) object["colour"] = to_text(*set.colour);
+  return object;
+}
+
 void read(const JsonPlace& place, Delete& erase) {
   place.only({"do", "target"});
   erase.target = place["target"].text();
@@ -238,6 +253,7 @@ constexpr Verb verbs[] = {
     {"place", read_command<Place>},
     {"merge", read_command<Merge>},
     {"rename", read_command<Rename>},
+    {"set_colour", read_command<SetColour>},
     {"delete", read_command<Delete>},
     {"show", read_command<Show>},
     {"undo", read_command<Undo>},

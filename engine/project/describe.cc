@@ -96,6 +96,10 @@ std::string spell(const Merge& merge, const Document& after) {
 std::string spell(const Rename& rename, const Document&) {
   return "rename " + rename.target + " to " + rename.name;
 }
+std::string spell(const SetColour& set, const Document& after) {
+  return set.colour ? "colour " + called(after, set.target) + " " + to_text(*set.colour)
+                    : "colour " + called(after, set.target) + " automatically";
+}
 std::string spell(const Delete& erase, const Document&) { return "delete " + erase.target; }
 std::string spell(const Show& show, const Document& after) {
   return (show.visible ? "show " : "hide ") + called(after, show.target);

@@ -12,6 +12,7 @@
 #include "engine/io/patch_set.h"
 #include "engine/map/patch_map.h"
 #include "engine/map/robot.h"
+#include "engine/project/colour.h"
 #include "engine/scan/scan.h"
 #include "engine/sensor/noise_model.h"
 
@@ -35,6 +36,7 @@ struct RegionEntry {
   std::shared_ptr<const std::vector<std::uint32_t>> points;  // ascending ids
   bool visible = true;
   std::size_t hidden_left_out = 0;  // points inside the last contour that others hide (visible only)
+  std::optional<Colour> colour{};   // chosen by hand, for its patches too
 };
 
 struct PatchEntry {
@@ -47,6 +49,7 @@ struct PatchEntry {
   // Ids of the scan's points behind fit->report.residuals, in that order.
   std::shared_ptr<const std::vector<std::uint32_t>> points;
   bool visible = true;
+  std::optional<Colour> colour{};
 };
 
 // A patch set or map in a frame of its own.

@@ -109,7 +109,7 @@ std::vector<Rgba8> point_colours(const PointScene& in, const ScanEntry& entry, c
   const RegionEntry* lit = lit_region(in.document, in.state.selected);
   for (const RegionEntry& region : in.document.regions) {
     if (region.scan != entry.id || !region.visible || !region.points || &region == lit) continue;
-    tint(*region.points, category_colour(region.id), colours);
+    tint(*region.points, colour_of(region), colours);
   }
   if (lit && lit->scan == entry.id) paint(lit->points, to_bytes(in.theme.point_selected), colours);
   const PatchEntry* patch = find_patch(in.document, in.state.selected);

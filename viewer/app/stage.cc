@@ -123,7 +123,7 @@ void Stage::add_patches(const PointScene& in, float scale) {
   for (const PatchEntry& entry : in.document.patches) {
     if (!entry.visible || !entry.fit) continue;
     const bool chosen = entry.id == in.state.selected;
-    const Rgba colour = category_colour(entry.region);
+    const Rgba colour = colour_of(entry);
     if (in.state.layers.surface) {
       const SurfaceMesh& surface =
           surface_of(entry, chosen ? std::nullopt : std::optional(with_alpha(colour, 0.45f)), in.state);

@@ -80,12 +80,23 @@ Rgba diverging(double t, double neutral_lightness) {
   return oklch(between(neutral_lightness, 0.66, strength), 0.15 * strength, t < 0 ? 240.0 : 52.0);
 }
 
+Rgba rgba(const Colour& colour) {
+  const auto part = [&](std::size_t k) { return static_cast<float>(colour[k]) / 255.0f; };
+  return {part(0), part(1), part(2), 1.0f};
+}
+
 Rgba category_colour(const std::string& id) {
-  constexpr std::array<unsigned, 7> okabe_ito = {0xE69F00, 0x56B4E9, 0xCC79A7, 0x009E73,
-                                                 0xF0E442, 0xD55E00, 0x0072B2};
   const std::size_t digits = id.find_last_not_of("0123456789") + 1;
   const unsigned long number = digits < id.size() ? std::strtoul(id.c_str() + digits, nullptr, 10) : 1;
-  return rgb(okabe_ito[(number + okabe_ito.size() - 1) % okabe_ito.size()]);
+  return rgba(okabe_ito[(number + okabe_ito.size() - 1) % okabe_ito.size()]);
+}
+
+Rgba colour_of(const RegionEntry& region) {
+  return region.colour ? rgba(*region.colour) : category_colour(region.id);
+}
+
+Rgba colour_of(const PatchEntry& patch) {
+  return patch.colour ? rgba(*patch.colour) : category_colour(patch.region);
 }
 
 }  // namespace patchlab::viewer

@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "engine/project/document.h"
 #include "viewer/render/scene.h"
 
 namespace patchlab::viewer {
@@ -29,7 +30,18 @@ Rgba sequential(double t, ColourMap map = ColourMap::viridis);
 // `neutral_lightness` suits the ground it lies on.
 Rgba diverging(double t, double neutral_lightness);
 
-// Okabe and Ito's colours for categories, by the number at the end of an id ("region-3").
+// Okabe and Ito's colours for categories; of an id, by the number at its end ("region-3").
+inline constexpr std::array<Colour, 7> okabe_ito = {{{0xE6, 0x9F, 0x00},
+                                                     {0x56, 0xB4, 0xE9},
+                                                     {0xCC, 0x79, 0xA7},
+                                                     {0x00, 0x9E, 0x73},
+                                                     {0xF0, 0xE4, 0x42},
+                                                     {0xD5, 0x5E, 0x00},
+                                                     {0x00, 0x72, 0xB2}}};
+Rgba rgba(const Colour& colour);
 Rgba category_colour(const std::string& id);
+// As somebody chose it, or of the region's id.
+Rgba colour_of(const RegionEntry& region);
+Rgba colour_of(const PatchEntry& patch);
 
 }  // namespace patchlab::viewer

@@ -2,6 +2,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "viewer/panel/colours.h"
 #include "viewer/panel/numbers.h"
@@ -72,6 +73,28 @@ void draw_name_field(const PanelInput& in, const Row& row, float width, PanelMem
   if (entered || ImGui::IsItemDeactivated()) memory.renaming.clear();
 }
 
+// Colours to choose from, for regions and patches.
+void draw_colour_choice(const PanelInput& in, const Row& row, Requests& out) {
+  const Gui& gui = in.gui;
+  std::optional<SetColour> wanted;
+  for (std::size_t i = 0; i < okabe_ito.size(); ++i) {
+    if (i > 0) ImGui::SameLine(0.0f, gui.px(4));
+    const Rgba colour = rgba(okabe_ito[i]);
+    const ImVec4 shown(colour[0], colour[1], colour[2], 1.0f);
+    ImGui::PushID(static_cast<int>(i));
+    constexpr auto plain = ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop;
+    if (ImGui::ColorButton("colour", shown, plain, {gui.px(18), gui.px(18)}))
+      wanted = SetColour{row.id, okabe_ito[i]};
+    gui.note("tree/colour " + std::to_string(i + 1));
+    ImGui::PopID();
+  }
+  if (wanted) {
+    out.commands.push_back(*wanted);
+    ImGui::CloseCurrentPopup();
+  }
+  if (ImGui::MenuItem("Automatic colour")) out.commands.push_back(SetColour{row.id, std::nullopt});
+}
+
 void draw_row_menu(const PanelInput& in, const Row& row, PanelMemory& memory, Requests& out) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {in.gui.px(10), in.gui.px(8)});
   if (ImGui::BeginPopupContextItem("row menu")) {
@@ -86,6 +109,10 @@ void draw_row_menu(const PanelInput& in, const Row& row, PanelMemory& memory, Re
     }
     if (ImGui::MenuItem("Frame", "F")) out.actions.push_back(Action::frame_selection);
     if (ImGui::MenuItem("Delete", "Delete", false, changes)) out.commands.push_back(Delete{row.id});
+    if (changes && (row.glyph == Glyph::dot || row.glyph == Glyph::diamond)) {
+      ImGui::Separator();
+      draw_colour_choice(in, row, out);
+    }
     close_on_escape();
     ImGui::EndPopup();
   }
@@ -189,7 +216,7 @@ std::vector<Row> region_rows(const PanelInput& in) {
   std::vector<Row> rows;
   for (const RegionEntry& entry : in.document.regions) {
     rows.push_back({entry.id, entry.name, count(entry.points ? entry.points->size() : 0), Glyph::dot,
-                    category_colour(entry.id), entry.visible});
+                    colour_of(entry), entry.visible});
   }
   return rows;
 }
@@ -202,7 +229,7 @@ std::vector<Row> patch_rows(const PanelInput& in) {
                     draft       ? "not kept"
                     : entry.fit ? short_surface_words(entry.fit->patch.type->surface)
                                 : "",
-                    Glyph::diamond, category_colour(entry.region), entry.visible, draft});
+                    Glyph::diamond, colour_of(entry), entry.visible, draft});
   }
   return rows;
 }

@@ -234,6 +234,23 @@ TEST_F(Apply, ChangesNothingInTheDocumentBefore) {
   EXPECT_EQ(find_region(before, "region-1")->name, "region-1");
 }
 
+TEST_F(Apply, ColourIsThatOfARegionAndItsPatchesUntilItIsTakenBack) {
+  const Colour red = {200, 10, 20}, blue = {1, 2, 250};
+  Document document = after({open_boxes(), lasso_left("region-1"), fit_plane("patch-1", "region-1"),
+                             SetColour{"patch-1", red}, fit_plane("patch-2", "region-1")});
+  EXPECT_EQ(find_region(document, "region-1")->colour, red);
+  EXPECT_EQ(find_patch(document, "patch-1")->colour, red);
+  EXPECT_EQ(find_patch(document, "patch-2")->colour, red);
+  for (const std::optional<Colour>& colour : {std::optional(blue), std::optional<Colour>()}) {
+    Command command = SetColour{"region-1", colour};
+    document = *apply(document, command, here());
+    EXPECT_EQ(find_region(document, "region-1")->colour, colour);
+    EXPECT_EQ(find_patch(document, "patch-2")->colour, colour);
+  }
+  Command nowhere = SetColour{"region-9", red};
+  EXPECT_FALSE(apply(document, nowhere, here()));
+}
+
 TEST_F(Apply, DescribesWhatWasDone) {
   const Document document = after({open_boxes(), lasso_left("region-1"), Rename{"region-1", "left plate"},
                                    fit_plane("patch-1", "region-1")});

@@ -40,6 +40,10 @@ TEST(CommandJson, BeginsWithWhatItDoes) {
   EXPECT_EQ(to_json(Undo{}).dump(), R"({"do":"undo"})");
   EXPECT_EQ(to_json(Rename{"patch-1", "mug side"}).dump(),
             R"({"do":"rename","target":"patch-1","name":"mug side"})");
+  EXPECT_EQ(to_json(SetColour{"region-1", Colour{230, 159, 0}}).dump(),
+            R"({"do":"set_colour","target":"region-1","colour":"#e69f00"})");
+  EXPECT_EQ(to_json(SetColour{"region-1", std::nullopt}).dump(),
+            R"({"do":"set_colour","target":"region-1"})");
 }
 
 TEST(CommandJson, KeepsEveryMemberThereAndBack) {
@@ -123,6 +127,12 @@ TEST(CommandJson, NamesTheMemberThatIsWrong) {
       {R"({"do":"dance"})", "the command.do 'dance' is not known"},
       {R"({"do":"undo","times":2})", "undo has the unknown member \"times\""},
       {R"({"do":"rename","target":"x"})", "rename lacks the member \"name\""},
+      {R"({"do":"set_colour","target":"x","colour":"red"})",
+       "set_colour.colour is no colour such as #e69f00"},
+      {R"({"do":"set_colour","target":"x","colour":"#12345g"})",
+       "set_colour.colour is no colour such as #e69f00"},
+      {R"({"do":"set_colour","target":"x","colour":"#-12345"})",
+       "set_colour.colour is no colour such as #e69f00"},
       {R"({"do":"open_scan","id":"scan-1","file":"a.pcd","unit":"ft"})", "open_scan.unit 'ft' is not known"},
       {R"({"do":"open_scan","id":"scan-1","file":"a.png","intrinsics":[0,1,2,3]})",
        "open_scan.intrinsics has a focal length that is not positive"},

@@ -5,6 +5,7 @@
 
 #include "tests/viewer/app/ball_scan.h"
 #include "tests/viewer/app/program.h"
+#include "viewer/panel/colours.h"
 #include "viewer/tool/measure.h"
 
 namespace patchlab::viewer {
@@ -61,6 +62,22 @@ TEST_F(ShellTest, TheContourSurvivesAResize) {
   EXPECT_EQ(state().contour.size(), 3u);
   program_.play("key Enter\nwait\n");
   EXPECT_EQ(program_.app().workbench().session().document().regions.size(), 1u);
+}
+
+TEST_F(ShellTest, ARegionAndItsPatchGetAColourByTheirMenuAndLoseItByUndo) {
+  open_ball();
+  program_.play("key L\n" + program_.draw_circle(0.05) + "wait\nkey Enter\nwait\n");
+  ASSERT_EQ(program_.document().patches.size(), 1u);
+  const Rect row = program_.app().widgets().at("tree/region-1");
+  program_.play("move " + std::to_string(row.x + row.width / 2) + " " +
+                std::to_string(row.y + row.height / 2) + "\npress right\nrelease right\nwait\n");
+  program_.picture("program_colour_menu");
+  program_.play("click tree/colour 4\nwait\n");
+  EXPECT_EQ(program_.document().regions.front().colour, okabe_ito[3]);
+  EXPECT_EQ(program_.document().patches.front().colour, okabe_ito[3]);
+  EXPECT_EQ(colour_of(program_.document().patches.front()), rgba(okabe_ito[3]));
+  program_.play("key Ctrl+Z\nwait\n");
+  EXPECT_FALSE(program_.document().patches.front().colour);
 }
 
 TEST_F(ShellTest, ACommandIsFoundByAPartOfItsNameAndRunByEnter) {
