@@ -97,6 +97,7 @@ void draw_colour_choice(const PanelInput& in, const Row& row, Requests& out) {
 
 void draw_row_menu(const PanelInput& in, const Row& row, PanelMemory& memory, Requests& out) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {in.gui.px(10), in.gui.px(8)});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {in.gui.px(8), in.gui.px(6)});
   if (ImGui::BeginPopupContextItem("row menu")) {
     out.select = row.id;
     const bool changes = !row.draft && !row.part;
@@ -116,7 +117,7 @@ void draw_row_menu(const PanelInput& in, const Row& row, PanelMemory& memory, Re
     close_on_escape();
     ImGui::EndPopup();
   }
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
 }
 
 void draw_row(const PanelInput& in, const Row& row, PanelMemory& memory, Requests& out) {
