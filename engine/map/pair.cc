@@ -1,8 +1,10 @@
 #include "engine/map/pair.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/base/chi_square.h"
 #include "engine/map/common_form.h"
@@ -12,6 +14,9 @@ namespace patchlab {
 namespace {
 
 using Eigen::MatrixXd;
+
+constexpr double prior_deviation = 0.05;  // of a vertex about its patch's centre, in sizes (method M4)
+constexpr double least_share = 0.25;      // of what is known of a vertex, that is worth to be told apart
 
 // Elliptic and hyperbolic paraboloids are one family, told apart by a sign that noise can turn.
 bool same_family(const Patch& a, const Patch& b) {
@@ -99,9 +104,23 @@ void reduce(Measurement& m, const MatrixXd& rows) {
   m.R = rows * m.R * rows.transpose();
 }
 
+// Of the rows of a form with the patch's apex where it slides along its surface (the directions that the type
+// has beyond what its 2-jet shows), as far as the prior of method M4 has its share in what is known of it.
+MatrixXd cov_form_vertex(const Patch& patch, const MatrixXd& J_local) {
+  const SurfaceDof dof = surface_dof(*patch.type);
+  const PatchMatrix cov = cov_local_or_zero(patch);
+  const double var_prior = 0.5 * extent(boundary(patch)).squaredNorm() * prior_deviation * prior_deviation;
+  const int t_z = patch.type->position_at() + 2;
+  std::vector<int> columns;
+  for (int t = t_z - (dof.all - dof.jet); t < t_z; ++t) {
+    if (cov(t, t) > least_share * var_prior) columns.push_back(t);
+  }
+  return J_local * MatrixXd(cov(Eigen::all, columns));
+}
+
 PairMeasurement by_quadric(const Pair& pair) {
   const SurfaceQuadric a = surface_quadric(pair.a, pair.plane), b = surface_quadric(pair.b, pair.plane);
-  PairMeasurement out{true, about(pair.a, pair)};
+  PairMeasurement out{true, about(pair.a, pair), {}};
   Measurement& m = out.measurement;
   state(m, true, a, b, J_wt_pose(pair.a_from_b, pair.b));
   m.R = b.J_local * cov_local_or_zero(pair.b) * b.J_local.transpose();
@@ -111,19 +130,24 @@ PairMeasurement by_quadric(const Pair& pair) {
   const MatrixXd J = scale.asDiagonal() * m.H * chart_scale(*pair.a.type, L).asDiagonal();
   using Square = Eigen::Matrix<double, quadric_size, quadric_size>;
   const Eigen::SelfAdjointEigenSolver<Square> solver(Square(J * J.transpose()));
-  reduce(m, solver.eigenvectors().rightCols(surface_dof(*pair.a.type).all).transpose() * scale.asDiagonal());
+  const MatrixXd rows =
+      solver.eigenvectors().rightCols(surface_dof(*pair.a.type).all).transpose() * scale.asDiagonal();
+  reduce(m, rows);
+  out.cov_y_vertex = rows * cov_form_vertex(pair.b, b.J_local);
   return out;
 }
 
 PairMeasurement by_jet(const Pair& pair, const JetPair& jets) {
   const bool stands_a = pair.a.type->curvature_size >= pair.b.type->curvature_size;
   const Patch &stands = stands_a ? pair.a : pair.b, &other = stands_a ? pair.b : pair.a;
-  PairMeasurement out{stands_a, about(stands, pair)};
+  PairMeasurement out{stands_a, about(stands, pair), {}};
   Measurement& m = out.measurement;
   state(m, stands_a, jets.a, jets.b, J_wt_pose(pair.a_from_b, pair.b));
-  m.R = cov_jet(other, stands_a ? jets.b : jets.a) + cov_unseen_at(other, pair.plane) +
-        cov_unseen_at(stands, pair.plane);
-  reduce(m, jet_scale(size_of(stands)).asDiagonal());
+  const SurfaceJet& jet = stands_a ? jets.b : jets.a;
+  m.R = cov_jet(other, jet) + cov_unseen_at(other, pair.plane) + cov_unseen_at(stands, pair.plane);
+  const JetScale scale = jet_scale(size_of(stands));
+  reduce(m, scale.asDiagonal());
+  out.cov_y_vertex = scale.asDiagonal() * cov_form_vertex(other, jet.J_local);
   return out;
 }
 
@@ -157,6 +181,15 @@ std::optional<PairMeasurement> measure_pair(const Pair& pair) {
   const auto jets = jets_of(pair);
   if (!jets) return std::nullopt;
   return by_jet(pair, *jets);
+}
+
+Measurement apart_from_vertex(const PairMeasurement& pair) {
+  Measurement m = pair.measurement;
+  if (pair.cov_y_vertex.cols() == 0) return m;
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(pair.cov_y_vertex);
+  const MatrixXd Q = qr.householderQ();
+  reduce(m, Q.rightCols(Q.cols() - qr.rank()).transpose());
+  return m;
 }
 
 }  // namespace patchlab

@@ -34,7 +34,7 @@ Linearised linearised(const PatchMap& map, const std::vector<Patch>& view, const
     if (!pair) continue;
     out.planes.push_back(plane);
     out.stands.push_back(pair->stands_a ? a : b);
-    out.measurements.push_back(pair->measurement);
+    out.measurements.push_back(apart_from_vertex(*pair));
     out.matches.push_back(&match);
   }
   return out;
