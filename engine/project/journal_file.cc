@@ -105,8 +105,9 @@ Result<void> JournalFile::append(std::string_view bytes) {
 }
 
 Error JournalFile::unwritable(int reason) const {
-  return {ErrorCode::unwritable, path_.string() + ": cannot be written: " + std::strerror(reason) +
-                                     "; the last action was not done. Make room, or see to the disk, then do it again."};
+  return {ErrorCode::unwritable,
+          path_.string() + ": cannot be written: " + std::strerror(reason) +
+              "; the last action was not done. Make room, or see to the disk, then do it again."};
 }
 
 }  // namespace patchlab
