@@ -5,15 +5,17 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "engine/base/parallel.h"
 #include "engine/fit/distance.h"
+#include "engine/fit/rows.h"
 #include "engine/patch/surface.h"
 
 namespace patchlab {
 namespace {
 
-constexpr std::size_t points_a_chunk = 1024;
+constexpr std::size_t blocks_a_chunk = 16;
 
 // Where normal . u > offset, u lies outside.
 struct OuterLine {
@@ -138,6 +140,37 @@ double squared_distance(const Vector3d& q, const std::vector<Vector3d>& curve) {
   return least;
 }
 
+// The feet of points on the surface of a patch, nearest in metres, a block at a time.
+class Feet {
+ public:
+  explicit Feet(const Vector3d& kappa) : kappa_(kappa) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      surface_.R[axis][axis] = 1.0;
+      surface_.k3[axis] = kappa[static_cast<Eigen::Index>(axis)];
+    }
+    for (const std::size_t diagonal : {0U, 3U, 5U}) std::ranges::fill(points_.cov[diagonal], 1.0);
+  }
+  void find(std::span<const Vector3d> points) {
+    for (std::size_t i = 0; i < block_size; ++i) {
+      const Vector3d& q = points[std::min(i, points.size() - 1)];
+      for (std::size_t axis = 0; axis < 3; ++axis) points_.q[axis][i] = q[static_cast<Eigen::Index>(axis)];
+    }
+    const bool found = fastest_rows().exact(surface_, points_, block_size, rows_);
+    for (std::size_t i = 0; !found && i < points.size(); ++i) {
+      if (rows_.failed[i] == 0.0) continue;
+      const Vector3d x = foot_point(points[i], Matrix3d::Identity(), kappa_).x;
+      for (std::size_t axis = 0; axis < 3; ++axis) rows_.x[axis][i] = x[static_cast<Eigen::Index>(axis)];
+    }
+  }
+  Vector3d operator[](std::size_t i) const { return {rows_.x[0][i], rows_.x[1][i], rows_.x[2][i]}; }
+
+ private:
+  Vector3d kappa_;
+  RowSurface surface_{};
+  SampleBlock points_{};
+  RowBlock rows_;
+};
+
 }  // namespace
 
 double coverage(const Patch& patch, const std::vector<Vector3d>& feet_patch,
@@ -167,11 +200,17 @@ double distance_rms(const Patch& patch, const std::vector<Vector3d>& points_patc
   const Vector3d kappa = k3(patch);
   const std::vector<Vector3d> curve = rim(bound, kappa);
   std::vector<double> squares(points_patch.size());
-  for_each_chunk(points_patch.size(), points_a_chunk, [&](const Chunk& chunk) {
-    for (std::size_t i = chunk.first; i < chunk.last; ++i) {
-      if (weights[i] == 0.0) continue;
-      const Vector3d &q = points_patch[i], x = foot_point(q, Matrix3d::Identity(), kappa).x;
-      squares[i] = contains(bound, x.head<2>()) ? (q - x).squaredNorm() : squared_distance(q, curve);
+  for_each_chunk(points_patch.size(), blocks_a_chunk * block_size, [&](const Chunk& chunk) {
+    Feet feet(kappa);
+    for (std::size_t first = chunk.first; first < chunk.last; first += block_size) {
+      const std::span block(points_patch.data() + first, std::min(block_size, chunk.last - first));
+      feet.find(block);
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        if (weights[first + i] == 0.0) continue;
+        const Vector3d &q = block[i], x = feet[i];
+        squares[first + i] =
+            contains(bound, x.head<2>()) ? (q - x).squaredNorm() : squared_distance(q, curve);
+      }
     }
   });
   const auto count = std::ranges::count_if(weights, [](double weight) { return weight != 0.0; });

@@ -23,11 +23,6 @@ double tukey_loss(double F) {
 bool counts(const Samples& samples, std::size_t i) {
   return samples.robust[i] != 0.0 && samples.bends[i] != 0;
 }
-std::size_t how_many_count(const Samples& samples, std::size_t first, std::size_t count) {
-  std::size_t counted = 0;
-  for (std::size_t i = first; i < first + count; ++i) counted += counts(samples, i) ? 1 : 0;
-  return counted;
-}
 
 // Rows of a block as the sums are to take them: scaled by the root of their weight, 0 where a sample does not
 // count, whatever was there. The loss and chi-square of those that count.
@@ -59,7 +54,11 @@ class SurfaceProblem {
 
   SurfaceProblem(const Samples& samples, const SurfaceModel& model, const SurfaceFitOptions& options,
                  const std::optional<VertexPrior>& prior)
-      : samples_(samples), model_(model), options_(options), prior_(prior) {}
+      : samples_(samples),
+        model_(model),
+        options_(options),
+        prior_(prior),
+        all_count_(!options.robust && samples.all_count(0, samples.size())) {}
 
   NormalEquations evaluate(const SurfaceState& state) const {
     const SampleRows rows(samples_, model_, state, options_.distance);
@@ -79,12 +78,9 @@ class SurfaceProblem {
     RowBlock block;
     Losses losses;
     for (std::size_t b = part.first; b < part.last; ++b) {
-      const std::size_t at = b * block_size, count = rows.count(b),
-                        counted = how_many_count(samples_, at, count);
-      if (counted == 0) continue;
       rows.evaluate(b, block);
-      if (options_.robust || counted < count) {
-        const Losses of_block = weigh(samples_, options_, at, count, block);
+      if (!all_count_) {
+        const Losses of_block = weigh(samples_, options_, b * block_size, rows.count(b), block);
         losses.cost += of_block.cost;
         losses.chi2 += of_block.chi2;
       }
@@ -115,6 +111,7 @@ class SurfaceProblem {
   const SurfaceModel& model_;
   const SurfaceFitOptions& options_;
   const std::optional<VertexPrior>& prior_;
+  bool all_count_;  // nothing has to be weighed
 };
 
 double chi_square(const Samples& samples, const SurfaceModel& model, const SurfaceState& state,
@@ -168,7 +165,8 @@ struct Footprint {
 }  // namespace
 
 ChartMatrix chart_covariance(const SurfaceFit& fit) {
-  return spread(fit.model, StepMatrix(fit.A.ldlt().solve(StepMatrix::Identity(fit.A.rows(), fit.A.cols()))));
+  const StepMatrix identity = StepMatrix::Identity(fit.A.rows(), fit.A.cols());
+  return spread(fit.model, solve_positive(fit.A, identity));
 }
 
 double tukey_weight(double F) {
@@ -189,6 +187,7 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const 
   fit.A = std::move(summary.at_solution.A);
   fit.cost = summary.at_solution.cost;
   fit.iterations = summary.iterations;
+  fit.evaluations = summary.evaluations;
   fit.converged = summary.converged;
   fit.chi2 = summary.at_solution.chi2;
   return fit;
@@ -219,9 +218,11 @@ FootPoints foot_points(const Samples& samples, const SurfaceFit& fit) {
   FootPoints feet;
   feet.x.resize(samples.size());
   feet.weight.resize(samples.size());
+  feet.F.resize(samples.size());
   const SampleRows rows(samples, fit.model, fit.state, Distance::exact);
   for_each_residual(rows, [&](std::size_t i, const Residual& r) {
     feet.x[i] = r.x;
+    feet.F[i] = r.F;
     feet.weight[i] = footprint(samples, fit, i, r);
   });
   const double sum = std::accumulate(feet.weight.begin(), feet.weight.end(), 0.0);

@@ -27,7 +27,7 @@ struct SurfaceFit {
   StepMatrix A{};     // normal matrix of the free parameters at the solution, prior included
   double chi2 = 0.0;  // of the points, robust weights not applied to it
   double cost = 0.0;  // what was minimised: prior and robust loss included
-  int iterations = 0;
+  int iterations = 0, evaluations = 0;
   bool converged = false;
   std::optional<VertexPrior> prior;
 };
@@ -58,6 +58,7 @@ double tukey_weight(double F);
 struct FootPoints {
   std::vector<Vector3d> x;     // local axes, m
   std::vector<double> weight;  // sum 1; zero for points of robust weight zero
+  std::vector<double> F;       // signed distances in standard deviations; of foot points only
 };
 FootPoints foot_points(const Samples& samples, const SurfaceFit& fit);
 // The measured points themselves in local axes with equal weights: Eq. (16), step 5 as printed.

@@ -35,20 +35,55 @@ struct HeightSums {
   }
 };
 
-double extent(const Samples& samples) {
-  double sum = 0.0;
-  for (const Vector3d& q : samples.q) sum += q.squaredNorm();
-  return std::sqrt(sum / static_cast<double>(samples.size()));
+struct alignas(64) LaneBlock {
+  double number[block_size];
+};
+constexpr LaneBlock zeros = {};
+constexpr LaneBlock ones = [] {
+  LaneBlock block{};
+  for (double& number : block.number) number = 1.0;
+  return block;
+}();
+
+// Sums of robust weights w over all samples: w q q', w q and w.
+struct Mass {
+  Matrix3d second;
+  Vector3d first;
+  double weight;
+
+  Vector3d mean() const { return first / weight; }
+  Matrix3d scatter() const { return second - first * mean().transpose(); }
+};
+
+void weigh_points(const Samples& samples, std::size_t block, RowBlock& rows) {
+  for (std::size_t i = 0; i < block_size; ++i) {
+    const std::size_t sample = block * block_size + i;
+    const double s = sample < samples.size() ? std::sqrt(samples.robust[sample]) : 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) rows.row[axis][i] = s * samples.blocks[block].q[axis][i];
+    rows.row[3][i] = s;
+  }
 }
 
-Vector3d weighted_mean(const Samples& samples) {
-  Vector3d sum = Vector3d::Zero();
-  double total = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    sum += samples.robust[i] * samples.q[i];
-    total += samples.robust[i];
+NormalEquations mass_of_part(const Samples& samples, const Chunk& part) {
+  RowBlock rows;
+  RowSums sums;
+  for (std::size_t b = part.first; b < part.last; ++b) {
+    const auto& q = samples.blocks[b].q;
+    const double *whole[] = {q[0], q[1], q[2], ones.number, zeros.number, zeros.number},
+                 *weighed[] = {rows.row[0], rows.row[1],  rows.row[2],
+                               rows.row[3], zeros.number, zeros.number};
+    const bool as_they_are =
+        (b + 1) * block_size <= samples.size() && samples.all_count(b * block_size, block_size);
+    if (!as_they_are) weigh_points(samples, b, rows);
+    fastest_rows().add(as_they_are ? whole : weighed, 4, block_size, sums);
   }
-  return sum / total;
+  return normal_equations(sums, 3);
+}
+
+Mass mass(const Samples& samples) {
+  const NormalEquations sums =
+      sum_of_parts(samples.blocks.size(), [&](const Chunk& part) { return mass_of_part(samples, part); });
+  return {sums.A, sums.b, sums.chi2};
 }
 
 double weight_along(const Matrix3d& cov, const Vector3d& normal) {
@@ -65,23 +100,28 @@ HeightFrame height_frame(const SurfaceState& frame, double size) {
 }
 
 NormalEquations height_equations(const Samples& samples, const HeightFrame& heights, const Chunk& part) {
-  const double* columns[row_count];
+  constexpr int monomials = 6;
   RowBlock rows;
-  for (std::size_t row = 0; row < row_count; ++row) columns[row] = rows.row[row];
+  const double* columns[row_count];
+  std::fill(std::begin(columns), std::end(columns), zeros.number);
+  for (std::size_t row = 0; row <= monomials; ++row) columns[row] = rows.row[row];
   RowSums sums;
   for (std::size_t b = part.first; b < part.last; ++b) {
-    alignas(32) double share[block_size] = {};
-    for (std::size_t i = b * block_size; i < std::min((b + 1) * block_size, samples.size()); ++i) {
-      share[i % block_size] = samples.robust[i] * samples.bends[i];
+    const std::size_t at = b * block_size, count = std::min(block_size, samples.size() - at);
+    LaneBlock share = ones;
+    if (count < block_size || !samples.all_count(at, count)) {
+      share = zeros;
+      for (std::size_t i = 0; i < count; ++i)
+        share.number[i] = samples.robust[at + i] * samples.bends[at + i];
     }
-    fastest_rows().heights(heights, samples.blocks[b], share, block_size, rows);
-    fastest_rows().add(columns, row_count / 3, block_size, sums);
+    fastest_rows().heights(heights, samples.blocks[b], share.number, block_size, rows);
+    fastest_rows().add(columns, monomials + 1, block_size, sums);
   }
-  return normal_equations(sums, 6);
+  return normal_equations(sums, monomials);
 }
 
 Vector6 fit_heights(const Samples& samples, const SurfaceState& frame) {
-  const double size = extent(samples);
+  const double size = samples.extent;
   const HeightFrame heights = height_frame(frame, size);
   const NormalEquations equations = sum_of_parts(
       samples.blocks.size(), [&](const Chunk& part) { return height_equations(samples, heights, part); });
@@ -112,7 +152,7 @@ SurfaceState principal(const SurfaceState& frame, const Vector6& a) {
 SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) {
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
-  const double size = extent(samples);
+  const double size = samples.extent;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Eigen::Vector4d row = (samples.q[i] / size).homogeneous();
     const double weight = samples.robust[i] * samples.bends[i] * weight_along(samples.cov[i], near.R.col(2));
@@ -122,7 +162,7 @@ SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) 
   const Eigen::Vector4d solution = solve_least(A, b);
   const Vector3d centre = 0.5 * solution.head<3>() * size;
   const double radius = std::sqrt(std::max(size * size * solution[3] + centre.squaredNorm(), 1e-300));
-  const Vector3d towards = (centre - weighted_mean(samples)).normalized();  // from the surface to the centre
+  const Vector3d towards = (centre - mass(samples).mean()).normalized();  // from the surface to the centre
   const double side = towards.dot(near.R.col(2)) >= 0.0 ? 1.0 : -1.0;
   SurfaceState state;
   state.R = turned_to(near.R, side * towards);
@@ -135,13 +175,10 @@ SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) 
 // what points all round a can or a pipe ask for, where no height field exists. The apex lies on the side of
 // the points, z_l towards the viewpoint.
 std::array<SurfaceState, 3> algebraic_cylinders(const Samples& samples) {
-  const Vector3d mean = weighted_mean(samples);
-  Matrix3d scatter = Matrix3d::Zero();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    scatter += samples.robust[i] * (samples.q[i] - mean) * (samples.q[i] - mean).transpose();
-  }
-  const Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(scatter).eigenvectors();
-  const double size = extent(samples);
+  const Mass all = mass(samples);
+  const Vector3d mean = all.mean();
+  const Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(all.scatter()).eigenvectors();
+  const double size = samples.extent;
   std::array<SurfaceState, 3> cylinders;
   for (int i = 0; i < 3; ++i) {
     Eigen::Matrix<double, 3, 2> across;
@@ -191,19 +228,13 @@ SurfaceState with_k(SurfaceState state, double k) {
 Matrix3d turned_to(const Matrix3d& R, const Vector3d& normal) { return shortest_turn(R.col(2), normal) * R; }
 
 SurfaceState initial_plane(const Samples& samples) {
-  const Vector3d mean = weighted_mean(samples);
-  Matrix3d scatter = Matrix3d::Zero();
-  double facing = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Vector3d away = samples.q[i] - mean;
-    scatter.noalias() += samples.robust[i] * away * away.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(scatter);
+  const Mass all = mass(samples);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(all.scatter());
   SurfaceState plane;
-  plane.c = mean;
+  plane.c = all.mean();
   plane.R.col(0) = eigen.eigenvectors().col(2);
   plane.R.col(2) = eigen.eigenvectors().col(0);
-  for (std::size_t i = 0; i < samples.size(); ++i) facing += plane.R.col(2).dot(samples.viewpoint(i) - mean);
+  const double facing = plane.R.col(2).dot(samples.mean_viewpoint() - plane.c);
   if (facing < 0.0) plane.R.col(2) *= -1.0;
   plane.R.col(1) = plane.R.col(2).cross(plane.R.col(0));
   return plane;
@@ -221,7 +252,7 @@ SurfaceState height_field(const Samples& samples, const SurfaceState& frame) {
 
 Quadric quadric_through(const Samples& samples, const SurfaceState& frame,
                         const std::vector<std::size_t>& points) {
-  HeightSums sums{.size = extent(samples)};
+  HeightSums sums{.size = samples.extent};
   for (const std::size_t i : points) sums.add(to_local(frame, samples.q[i]), 1.0);
   return {frame, sums.solve()};
 }

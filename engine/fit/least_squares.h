@@ -10,6 +10,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -41,24 +42,64 @@ struct LeastSquaresOptions {
   std::function<bool()> keep_going = {};  // asked before each step; false ends it where it is
 };
 
-// The solution of A x = b, A symmetric and positive definite or nearly so; sizes up to 8 are compiled each.
-template <int size = 1>
-StepVector solve_positive(const StepMatrix& A, const StepVector& b) {
+// A = L L' of a size that is compiled: a few dozen instructions, where a general one is a few calls.
+template <int size>
+class Cholesky {
+ public:
+  explicit Cholesky(const StepMatrix& A) {
+    for (int j = 0; j < size; ++j) {
+      for (int i = j; i < size; ++i) L_[j][i] = A(i, j);
+    }
+    for (int j = 0; j < size; ++j) {
+      positive_ = positive_ && L_[j][j] > 0.0;
+      inverse_[j] = 1.0 / std::sqrt(L_[j][j]);
+      for (int i = j + 1; i < size; ++i) L_[j][i] *= inverse_[j];
+      for (int k = j + 1; k < size; ++k) {
+        for (int i = k; i < size; ++i) L_[k][i] -= L_[j][k] * L_[j][i];
+      }
+    }
+  }
+  bool positive() const { return positive_; }
+
+  template <class Column>
+  void solve(Column&& x) const {  // in place
+    for (int j = 0; j < size; ++j) {
+      x[j] *= inverse_[j];
+      for (int i = j + 1; i < size; ++i) x[i] -= L_[j][i] * x[j];
+    }
+    for (int j = size - 1; j >= 0; --j) {
+      for (int i = j + 1; i < size; ++i) x[j] -= L_[j][i] * x[i];
+      x[j] *= inverse_[j];
+    }
+  }
+
+ private:
+  double L_[size][size];  // by columns
+  double inverse_[size];  // of the diagonal
+  bool positive_ = true;
+};
+
+// The solution of A X = B, A symmetric and positive definite or nearly so; sizes up to 8 are compiled each.
+template <int size = 1, class Right>
+Right solve_positive(const StepMatrix& A, const Right& B) {
   if constexpr (size > 8) {
-    return A.ldlt().solve(b);
+    return A.ldlt().solve(B);
   } else if (A.rows() != size) {
-    return solve_positive<size + 1>(A, b);
+    return solve_positive<size + 1>(A, B);
   } else {
-    const Eigen::LLT<Eigen::Matrix<double, size, size>> factor(A);
-    if (factor.info() != Eigen::Success) return A.ldlt().solve(b);
-    return factor.solve(Eigen::Matrix<double, size, 1>(b));
+    const Cholesky<size> factor(A);
+    if (!factor.positive()) return A.ldlt().solve(B);
+    Right X = B;
+    for (Eigen::Index column = 0; column < X.cols(); ++column) factor.solve(X.col(column));
+    return X;
   }
 }
 
 struct LeastSquaresSummary {
   bool converged = false;
-  int iterations = 0;  // accepted and refused steps
-  NormalEquations at_solution;
+  int iterations = 0;           // accepted and refused steps
+  int evaluations = 0;          // of the problem: one fewer where the last step was not measured
+  NormalEquations at_solution;  // A, b there or one step of no consequence before
 };
 
 // A damped step solves (A + damping D) step = -b. Three rules guide it:
@@ -73,7 +114,8 @@ struct LeastSquaresSummary {
 // Damping (Nielsen): it falls as far as the step's gain agrees with the prediction, and grows faster with
 // each refusal in a row.
 //
-// Converged when a nearly undamped step is below `stop`, or when no step of any damping is accepted.
+// Converged when a nearly undamped step is below `stop`: it is taken unmeasured, the cost lowered by its
+// prediction. Also when no step of any damping is accepted.
 template <class Problem>
 LeastSquaresSummary minimise(const Problem& problem, typename Problem::State& state,
                              const LeastSquaresOptions& options = {}) {
@@ -81,6 +123,7 @@ LeastSquaresSummary minimise(const Problem& problem, typename Problem::State& st
   constexpr double steepest_fall = 0.2, first_growth = 2.0, largest_damping = 1e12;
   LeastSquaresSummary summary;
   NormalEquations here = problem.evaluate(state);
+  summary.evaluations = 1;
   StepVector scale = StepVector::Zero(here.b.size());
   double damping = options.initial_damping, growth = first_growth;
   while (!summary.converged && summary.iterations < options.max_iterations && std::isfinite(here.cost) &&
@@ -93,14 +136,21 @@ LeastSquaresSummary minimise(const Problem& problem, typename Problem::State& st
     const double length = step.dot(here.A * step);
     const double predicted = step.dot(damping * scale.cwiseProduct(step) - here.b);
     auto candidate = problem.retract(state, step);
+    if (length < options.stop && damping < 1.0) {
+      state = std::move(candidate);
+      here.cost = std::max(here.cost - predicted, 0.0);
+      here.chi2 = std::max(here.chi2 - predicted, 0.0);
+      summary.converged = true;
+      break;
+    }
     NormalEquations there = problem.evaluate(candidate);
+    ++summary.evaluations;
     const bool in_sight = (there.A.diagonal().array() >= least_sight * information.array()).all();
     if (in_sight && std::isfinite(there.cost) && there.cost <= here.cost) {
-      const double gain = (here.cost - there.cost) / predicted;
+      const double gain = (here.cost - there.cost) / predicted, agreement = 2.0 * gain - 1.0;
       state = std::move(candidate);
       here = std::move(there);
-      summary.converged = length < options.stop && damping < 1.0;
-      damping *= std::max(steepest_fall, 1.0 - std::pow(2.0 * gain - 1.0, 3));
+      damping *= std::max(steepest_fall, 1.0 - agreement * agreement * agreement);
       growth = first_growth;
     } else {
       summary.converged = length < 1e-3 * options.stop || damping > largest_damping;

@@ -1,9 +1,10 @@
 // Residuals and their rows F_p, Eqs. (34)-(36), of many samples at once: the innermost loop of every fit, for
 // whatever vector instructions the machine has.
 //
-// Every kernel does the same additions and multiplications in the same order, four samples side by side, and
-// none fuses them: a fit gives the same bytes with each. engine/fit/distance.h says the same one sample at a
-// time, in the words of the paper; the tests hold the kernels to it.
+// All kernels compile the same lines (rows_kernel.h) and keep sums over the same eight lanes. Those of AVX2 and
+// AVX-512 fuse the same products and sums, and give the same bytes; the plain one rounds between them, and
+// agrees to 1e-12. engine/fit/distance.h says the same one sample at a time, in the words of the paper; the
+// tests hold the kernels to it.
 //
 // The kernels see plain numbers only. Nothing inline of Eigen or of the standard library may be compiled for
 // one machine's instructions, where the linker could take it for all.
@@ -13,7 +14,7 @@
 
 namespace patchlab {
 
-inline constexpr std::size_t lane_count = 4;
+inline constexpr std::size_t lane_count = 8;
 inline constexpr std::size_t block_size = 64;  // samples whose rows stay in the first-level cache
 inline constexpr int row_count = 9;            // F_p in the chart's eight coordinates, then F
 
@@ -26,21 +27,21 @@ struct RowSurface {
 };
 
 // Samples side by side, in the frame of the points.
-struct alignas(32) SampleBlock {
+struct alignas(64) SampleBlock {
   double q[3][block_size];    // m
   double cov[6][block_size];  // xx xy xz yy yz zz, m^2
+  bool thin;                  // some covariance may have no extent in some direction
 };
 
-struct alignas(32) RowBlock {
+struct alignas(64) RowBlock {
   double row[row_count][block_size];
-  double x[3][block_size];   // foot points (exact) or the samples themselves (paper), local
-  double sigma[block_size];  // sqrt(g' S g): F_q = g / sigma
-  double
-      failed[block_size];  // of exact rows: not 0 where no foot point was found; the rest says nothing there
+  double x[3][block_size];    // foot points (exact) or the samples themselves (paper), local
+  double sigma[block_size];   // sqrt(g' S g): F_q = g / sigma
+  double failed[block_size];  // of exact rows: not 0 where no foot point was found; the rest says nothing
 };
 
 // Sums of products of rows, three by three: tile (I, J) of up to three groups of three rows, lane by lane.
-struct alignas(32) RowSums {
+struct alignas(64) RowSums {
   double tile[6][9][lane_count] = {};
 };
 
@@ -56,14 +57,15 @@ struct RowKernel {
   // failed.
   bool (*paper)(const RowSurface&, const SampleBlock&, std::size_t count, RowBlock&);
   bool (*exact)(const RowSurface&, const SampleBlock&, std::size_t count, RowBlock&);
-  // Rows of heights over a plane, times the root of share / variance along the normal; two of 0.
+  // Seven rows of heights over a plane, times the root of share / variance along the normal.
   void (*heights)(const HeightFrame&, const SampleBlock&, const double* share, std::size_t count, RowBlock&);
-  // Adds the products of 3 * groups rows, groups <= 3.
-  void (*add)(const double* const* rows, int groups, std::size_t count, RowSums&);
+  // Adds the products of up to nine rows; where their number is no multiple of three, rows of 0 follow.
+  void (*add)(const double* const* rows, int row_count, std::size_t count, RowSums&);
 };
 
 const RowKernel& plain_rows();
-const RowKernel* avx2_rows();  // nothing where this machine, or this build, has no AVX2
+const RowKernel* avx2_rows();    // nothing where this machine, or this build, has no AVX2 with FMA
+const RowKernel* avx512_rows();  // the same of AVX-512
 const RowKernel& fastest_rows();
 
 }  // namespace patchlab

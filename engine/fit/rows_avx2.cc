@@ -3,9 +3,9 @@
 namespace patchlab {
 
 const RowKernel* avx2_rows() {
-#ifdef __AVX2__
+#if defined(__AVX2__) && defined(__FMA__)
   static constexpr RowKernel kernel = {"AVX2", paper_rows, exact_rows, height_rows, add_rows};
-  return __builtin_cpu_supports("avx2") ? &kernel : nullptr;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? &kernel : nullptr;
 #else
   return nullptr;
 #endif

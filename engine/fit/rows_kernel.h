@@ -12,12 +12,17 @@ namespace patchlab {
 namespace {
 
 // Numbers of as many samples as one instruction takes; all arithmetic below is that of one.
+#if defined(__AVX512F__)
+constexpr std::size_t width = 8;
+#elif defined(__AVX__)
+constexpr std::size_t width = 4;
+#else
+constexpr std::size_t width = 1;
+#endif
 #ifdef __AVX__
-using Lanes = double __attribute__((vector_size(8 * lane_count), may_alias));
-constexpr std::size_t width = lane_count;
+using Lanes = double __attribute__((vector_size(8 * width), may_alias));
 #else
 using Lanes = double;
-constexpr std::size_t width = 1;
 #endif
 using Mask = decltype(Lanes{} < Lanes{});
 
@@ -28,8 +33,8 @@ struct Sym {
   Lanes xx, xy, xz, yy, yz, zz;
 };
 
+Lanes all(double number) { return Lanes{} + number; }
 Lanes dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Lanes dot(const double* a, const Vec& b) { return a[0] * b.x + a[1] * b.y + a[2] * b.z; }
 Vec cross(const Vec& a, const Vec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -39,18 +44,22 @@ Vec product(const Sym& S, const Vec& v) {
   return {S.xx * v.x + S.xy * v.y + S.xz * v.z, S.xy * v.x + S.yy * v.y + S.yz * v.z,
           S.xz * v.x + S.yz * v.y + S.zz * v.z};
 }
-Vec turned(const double (*R)[3], const Vec& v) { return {dot(R[0], v), dot(R[1], v), dot(R[2], v)}; }
-Vec turned_back(const double (*R)[3], const Vec& v) {  // R' v
-  return {R[0][0] * v.x + R[1][0] * v.y + R[2][0] * v.z, R[0][1] * v.x + R[1][1] * v.y + R[2][1] * v.z,
-          R[0][2] * v.x + R[1][2] * v.y + R[2][2] * v.z};
-}
 Lanes trace(const Sym& S) { return S.xx + S.yy + S.zz; }
 
-#ifdef __AVX__
+#if defined(__AVX512F__)
+Lanes root(const Lanes& v) { return _mm512_maskz_sqrt_pd(0xff, v); }
+#elif defined(__AVX__)
 Lanes root(const Lanes& v) { return _mm256_sqrt_pd(v); }
-bool any(const Mask& mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
 #else
 Lanes root(Lanes v) { return __builtin_sqrt(v); }
+#endif
+#ifdef __AVX__
+bool any(const Mask& mask) {
+  auto either = mask[0];
+  for (std::size_t i = 1; i < width; ++i) either |= mask[i];
+  return either != 0;
+}
+#else
 bool any(Mask mask) { return mask; }
 #endif
 
@@ -74,16 +83,47 @@ Sample load(const SampleBlock& block, std::size_t at) {
   return {load(block.q, at), {cov(0), cov(1), cov(2), cov(3), cov(4), cov(5)}};
 }
 
-Vec to_local(const RowSurface& surface, const Vec& q) {  // Eq. (4)
-  return turned_back(surface.R, {q.x - surface.c[0], q.y - surface.c[1], q.z - surface.c[2]});
+// What all samples share, in every lane.
+struct Surface {
+  Vec column[3];  // of R
+  Vec c;
+  Lanes k3[3], B[3][2];
+
+  explicit Surface(const RowSurface& from) : c{all(from.c[0]), all(from.c[1]), all(from.c[2])} {
+    for (int i = 0; i < 3; ++i) {
+      column[i] = {all(from.R[0][i]), all(from.R[1][i]), all(from.R[2][i])};
+      k3[i] = all(from.k3[i]);
+      for (int j = 0; j < 2; ++j) B[i][j] = all(from.B[i][j]);
+    }
+  }
+};
+
+// What is known of a surface while its kernel is compiled: of planes and paraboloids that they do not bend
+// along z, k3.z = 0; of the paraboloid of eight parameters that B is I there.
+enum class Shape { paraboloid, flat, any };
+Shape shape_of(const RowSurface& surface) {
+  const double(*B)[2] = surface.B;
+  if (surface.k3[2] != 0.0 || B[2][0] != 0.0 || B[2][1] != 0.0) return Shape::any;
+  const bool unit = B[0][0] == 1.0 && B[0][1] == 0.0 && B[1][0] == 0.0 && B[1][1] == 1.0;
+  return unit ? Shape::paraboloid : Shape::flat;
 }
-Vec times_k(const RowSurface& surface, const Vec& v) {  // K v
-  return {surface.k3[0] * v.x, surface.k3[1] * v.y, surface.k3[2] * v.z};
+
+Vec turned(const Surface& surface, const Vec& v) {  // R v
+  const Vec(&R)[3] = surface.column;
+  return {R[0].x * v.x + R[1].x * v.y + R[2].x * v.z, R[0].y * v.x + R[1].y * v.y + R[2].y * v.z,
+          R[0].z * v.x + R[1].z * v.y + R[2].z * v.z};
+}
+Vec turned_back(const Surface& surface, const Vec& v) {  // R' v
+  return {dot(surface.column[0], v), dot(surface.column[1], v), dot(surface.column[2], v)};
+}
+Vec to_local(const Surface& surface, const Vec& q) {  // Eq. (4)
+  return turned_back(surface, difference(q, surface.c));
 }
 // n = K q - z: half the gradient, Eq. (39), so that no factor of 2 has to be multiplied out.
-Vec half_gradient(const RowSurface& surface, const Vec& q) {
-  const Vec Kq = times_k(surface, q);
-  return {Kq.x, Kq.y, Kq.z - 1.0};
+template <Shape shape>
+Vec half_gradient(const Surface& surface, const Vec& q) {
+  const Lanes* k = surface.k3;
+  return {k[0] * q.x, k[1] * q.y, shape == Shape::any ? k[2] * q.z - 1.0 : all(-1.0)};
 }
 Lanes implicit(const Vec& q, const Vec& n) { return dot(q, n) - q.z; }  // Eq. (37)
 // Footnote 10, as in engine/fit/distance.cc: n' S n.
@@ -93,24 +133,51 @@ Lanes clamped(const Lanes& v, const Lanes& trace_of_cov, const Vec& n) {
 }
 
 // B' v, the curvatures' part of a row.
-void store_curvatures(const RowSurface& surface, const Vec& v, RowBlock& block, std::size_t at) {
+template <Shape shape>
+void store_curvatures(const Surface& surface, const Vec& v, RowBlock& block, std::size_t at) {
+  const Lanes(*B)[2] = surface.B;
   for (int k = 0; k < 2; ++k) {
-    lanes(block.row[k] + at) = surface.B[0][k] * v.x + surface.B[1][k] * v.y + surface.B[2][k] * v.z;
+    Lanes& row = lanes(block.row[k] + at);
+    if (shape == Shape::paraboloid) row = k == 0 ? v.x : v.y;
+    if (shape == Shape::flat) row = B[0][k] * v.x + B[1][k] * v.y;
+    if (shape == Shape::any) row = B[0][k] * v.x + B[1][k] * v.y + B[2][k] * v.z;
   }
+}
+
+// n x a - K p x q, and K p - m n.
+template <Shape shape>
+Vec rotation(const Surface& surface, const Vec& n, const Vec& a, const Vec& p, const Vec& q) {
+  const Lanes Kp_x = surface.k3[0] * p.x, Kp_y = surface.k3[1] * p.y;
+  if (shape == Shape::any) {
+    return difference(cross(n, a), cross({Kp_x, Kp_y, surface.k3[2] * p.z}, q));
+  }
+  return {n.y * a.z + a.y - Kp_y * q.z, Kp_x * q.z - a.x - n.x * a.z,
+          n.x * a.y - n.y * a.x + (Kp_y * q.x - Kp_x * q.y)};
+}
+template <Shape shape>
+Vec translation(const Surface& surface, const Vec& n, const Vec& p, const Lanes& m) {
+  const Lanes* k = surface.k3;
+  return {k[0] * p.x - m * n.x, k[1] * p.y - m * n.y, shape == Shape::any ? k[2] * p.z - m * n.z : m};
 }
 
 // With g = 2 n, v = 4 n'Sn, m = 1 / sqrt(n'Sn) and p = F m^2 S n, Eq. (36) reads
 //   F_k = B' q (m q / 2 - p),  F_w = n x (m q - p) - K p x q,  F_t = K p - m n.
 // Three short loops, so that roots and quotients of several samples are under way at once.
-bool paper_rows(const RowSurface& surface, const SampleBlock& samples, std::size_t count, RowBlock& block) {
-  alignas(32) double S_n[3][block_size], inverse[block_size];
+template <Shape shape>
+bool paper_rows_of(const RowSurface& from, const SampleBlock& samples, std::size_t count, RowBlock& block) {
+  alignas(64) double S_n[3][block_size], inverse[block_size];
+  const Surface surface(from);
   for (std::size_t at = 0; at < count; at += width) {
     const Sample sample = load(samples, at);
-    const Vec q = to_local(surface, sample.q), n = half_gradient(surface, q);
-    const Vec Sn = turned_back(surface.R, product(sample.cov, turned(surface.R, n)));
+    const Vec q = to_local(surface, sample.q), n = half_gradient<shape>(surface, q);
+    const Vec Sn = turned_back(surface, product(sample.cov, turned(surface, n)));
     store(block.x, at, q);
     store(S_n, at, Sn);
-    lanes(inverse + at) = clamped(dot(n, Sn), trace(sample.cov), n);  // Eq. (34)
+    lanes(inverse + at) = dot(n, Sn);  // Eq. (34)
+  }
+  for (std::size_t at = 0; samples.thin && at < count; at += width) {
+    const Vec n = half_gradient<shape>(surface, load(block.x, at));
+    lanes(inverse + at) = clamped(lanes(inverse + at), trace(load(samples, at).cov), n);
   }
   for (std::size_t at = 0; at < count; at += width) {
     const Lanes s = root(lanes(inverse + at));
@@ -118,23 +185,33 @@ bool paper_rows(const RowSurface& surface, const SampleBlock& samples, std::size
     lanes(inverse + at) = 1.0 / s;
   }
   for (std::size_t at = 0; at < count; at += width) {
-    const Vec q = load(block.x, at), n = half_gradient(surface, q), Sn = load(S_n, at);
+    const Vec q = load(block.x, at), n = half_gradient<shape>(surface, q), Sn = load(S_n, at);
     const Lanes m = lanes(inverse + at), half_m = 0.5 * m;
     const Lanes F = implicit(q, n) * half_m;  // Eq. (35)
-    const Vec p = scaled(Sn, F * (m * m)), Kp = times_k(surface, p);
-    const Vec half_mq = scaled(q, half_m), left = difference(half_mq, p);
-    const Vec across = {half_mq.x + left.x, half_mq.y + left.y, half_mq.z + left.z};   // m q - p
-    store_curvatures(surface, {q.x * left.x, q.y * left.y, q.z * left.z}, block, at);  // Eq. (36)
-    store(block.row + 2, at, difference(cross(n, across), cross(Kp, q)));
-    store(block.row + 5, at, difference(Kp, scaled(n, m)));
+    const Vec p = scaled(Sn, F * (m * m)), half_mq = scaled(q, half_m), left = difference(half_mq, p);
+    const Vec across = {half_mq.x + left.x, half_mq.y + left.y, half_mq.z + left.z};          // m q - p
+    store_curvatures<shape>(surface, {q.x * left.x, q.y * left.y, q.z * left.z}, block, at);  // Eq. (36)
+    store(block.row + 2, at, rotation<shape>(surface, n, across, p, q));
+    store(block.row + 5, at, translation<shape>(surface, n, p, m));
     lanes(block.row[8] + at) = F;
   }
   return true;
 }
 
+bool paper_rows(const RowSurface& surface, const SampleBlock& samples, std::size_t count, RowBlock& block) {
+  switch (shape_of(surface)) {
+    case Shape::paraboloid:
+      return paper_rows_of<Shape::paraboloid>(surface, samples, count, block);
+    case Shape::flat:
+      return paper_rows_of<Shape::flat>(surface, samples, count, block);
+    default:
+      return paper_rows_of<Shape::any>(surface, samples, count, block);
+  }
+}
+
 // What stays of a block while its foot points are sought: q - x = l S n(x), l twice the multiplier of
 // method M2.
-struct alignas(32) FootSearch {
+struct alignas(64) FootSearch {
   double q[3][block_size];
   double cov[6][block_size];
   double Sn[3][block_size];  // at q
@@ -147,173 +224,168 @@ Sym load_cov(const FootSearch& search, std::size_t at) {
 }
 
 // R' C R.
-Sym local_cov(const RowSurface& surface, const Sym& C) {
-  const double(*R)[3] = surface.R;
-  Vec column[3];
-  for (int j = 0; j < 3; ++j) {
-    const Vec CR = {C.xx * R[0][j] + C.xy * R[1][j] + C.xz * R[2][j],
-                    C.xy * R[0][j] + C.yy * R[1][j] + C.yz * R[2][j],
-                    C.xz * R[0][j] + C.yz * R[1][j] + C.zz * R[2][j]};
-    column[j] = turned_back(R, CR);
-  }
-  return {column[0].x, column[1].x, column[2].x, column[1].y, column[2].y, column[2].z};
+Sym local_cov(const Surface& surface, const Sym& C) {
+  const Vec(&R)[3] = surface.column;
+  const Vec x = turned_back(surface, product(C, R[0])), Cy = product(C, R[1]), Cz = product(C, R[2]);
+  return {x.x, x.y, x.z, dot(R[1], Cy), dot(R[2], Cy), dot(R[2], Cz)};
 }
 
-void begin_search(const RowSurface& surface, const SampleBlock& samples, std::size_t count,
-                  FootSearch& search) {
+template <Shape shape>
+void begin_search(const Surface& surface, const SampleBlock& samples, std::size_t count, FootSearch& search) {
   for (std::size_t at = 0; at < count; at += width) {
     const Sample sample = load(samples, at);
-    const Vec q = to_local(surface, sample.q), n = half_gradient(surface, q);
+    const Vec q = to_local(surface, sample.q), n = half_gradient<shape>(surface, q);
     const Sym S = local_cov(surface, sample.cov);
     const Vec Sn = product(S, n);
     const Lanes entries[6] = {S.xx, S.xy, S.xz, S.yy, S.yz, S.zz};
     for (int i = 0; i < 6; ++i) lanes(search.cov[i] + at) = entries[i];
     store(search.q, at, q);
     store(search.Sn, at, Sn);
-    lanes(search.l + at) = implicit(q, n) / (2.0 * dot(n, Sn));
+    lanes(search.l + at) = 0.5 * implicit(q, n) / dot(n, Sn);
   }
 }
 
-// (I + l S K)^-1 by cofactors. Where the surface is flat along z, as planes and paraboloids are (k3.z = 0),
-// the matrix and its inverse have the last column of I.
-template <bool flat>
+// (I + l S K)^-1 by cofactors.
+template <Shape shape>
 struct Inverse {
   Vec row[3];
   Mask positive;  // all eigenvalues of the matrix are
+
+  Inverse(const Surface& surface, const Sym& S, const Lanes& l) {
+    const Vec m = {l * surface.k3[0], l * surface.k3[1], l * surface.k3[2]};
+    const Lanes a00 = 1.0 + S.xx * m.x, a01 = S.xy * m.y, a02 = S.xz * m.z;
+    const Lanes a10 = S.xy * m.x, a11 = 1.0 + S.yy * m.y, a12 = S.yz * m.z;
+    const Lanes a20 = S.xz * m.x, a21 = S.yz * m.y, a22 = 1.0 + S.zz * m.z;
+    const Lanes c00 = a11 * a22 - a12 * a21, c10 = a12 * a20 - a10 * a22, c20 = a10 * a21 - a11 * a20;
+    const Lanes c11 = a00 * a22 - a02 * a20, c22 = a00 * a11 - a01 * a10;
+    const Lanes determinant = a00 * c00 + a01 * c10 + a02 * c20, scale = 1.0 / determinant;
+    row[0] = scaled({c00, a02 * a21 - a01 * a22, a01 * a12 - a02 * a11}, scale);
+    row[1] = scaled({c10, c11, a02 * a10 - a00 * a12}, scale);
+    row[2] = scaled({c20, a01 * a20 - a00 * a21, c22}, scale);
+    positive = (a00 + a11 + a22 > 0.0) & (c00 + c11 + c22 > 0.0) & (determinant > 0.0);
+  }
+  Vec times(const Vec& v) const { return {dot(row[0], v), dot(row[1], v), dot(row[2], v)}; }
+};
+// Where k3.z = 0 the last column of the matrix is that of I.
+template <Shape shape>
+requires(shape != Shape::any) struct Inverse<shape> {
+  Lanes i00, i01, i10, i11, a20, a21;
+  Mask positive;
+
+  Inverse(const Surface& surface, const Sym& S, const Lanes& l) {
+    const Lanes m_x = l * surface.k3[0], m_y = l * surface.k3[1];
+    const Lanes a00 = 1.0 + S.xx * m_x, a01 = S.xy * m_y, a10 = S.xy * m_x, a11 = 1.0 + S.yy * m_y;
+    const Lanes determinant = a00 * a11 - a01 * a10, scale = 1.0 / determinant;
+    i00 = a11 * scale, i01 = a01 * scale, i10 = a10 * scale, i11 = a00 * scale;
+    a20 = S.xz * m_x, a21 = S.yz * m_y;
+    positive = (a00 + a11 > 0.0) & (determinant > 0.0);
+  }
+  Vec times(const Vec& v) const {
+    const Lanes x = i00 * v.x - i01 * v.y, y = i11 * v.y - i10 * v.x;
+    return {x, y, v.z - a20 * x - a21 * y};
+  }
 };
 
-template <bool flat>
-Inverse<flat> invert(const RowSurface& surface, const Sym& S, const Lanes& l);
-
-template <>
-Inverse<false> invert<false>(const RowSurface& surface, const Sym& S, const Lanes& l) {
-  const Vec m = {l * surface.k3[0], l * surface.k3[1], l * surface.k3[2]};
-  const Lanes a00 = 1.0 + S.xx * m.x, a01 = S.xy * m.y, a02 = S.xz * m.z;
-  const Lanes a10 = S.xy * m.x, a11 = 1.0 + S.yy * m.y, a12 = S.yz * m.z;
-  const Lanes a20 = S.xz * m.x, a21 = S.yz * m.y, a22 = 1.0 + S.zz * m.z;
-  const Lanes c00 = a11 * a22 - a12 * a21, c10 = a12 * a20 - a10 * a22, c20 = a10 * a21 - a11 * a20;
-  const Lanes c11 = a00 * a22 - a02 * a20, c22 = a00 * a11 - a01 * a10;
-  const Lanes determinant = a00 * c00 + a01 * c10 + a02 * c20, scale = 1.0 / determinant;
-  Inverse<false> inverse;
-  inverse.row[0] = scaled({c00, a02 * a21 - a01 * a22, a01 * a12 - a02 * a11}, scale);
-  inverse.row[1] = scaled({c10, c11, a02 * a10 - a00 * a12}, scale);
-  inverse.row[2] = scaled({c20, a01 * a20 - a00 * a21, c22}, scale);
-  inverse.positive = (a00 + a11 + a22 > 0.0) & (c00 + c11 + c22 > 0.0) & (determinant > 0.0);
-  return inverse;
-}
-Vec product(const Inverse<false>& inverse, const Vec& v) {
-  return {dot(inverse.row[0], v), dot(inverse.row[1], v), dot(inverse.row[2], v)};
-}
-
-template <>
-Inverse<true> invert<true>(const RowSurface& surface, const Sym& S, const Lanes& l) {
-  const Lanes m_x = l * surface.k3[0], m_y = l * surface.k3[1];
-  const Lanes a00 = 1.0 + S.xx * m_x, a01 = S.xy * m_y, a10 = S.xy * m_x, a11 = 1.0 + S.yy * m_y;
-  const Lanes a20 = S.xz * m_x, a21 = S.yz * m_y;
-  const Lanes determinant = a00 * a11 - a01 * a10, scale = 1.0 / determinant, zero = {};
-  const Lanes i00 = a11 * scale, i01 = -a01 * scale, i10 = -a10 * scale, i11 = a00 * scale;
-  Inverse<true> inverse;
-  inverse.row[0] = {i00, i01, zero};
-  inverse.row[1] = {i10, i11, zero};
-  inverse.row[2] = {-(a20 * i00 + a21 * i10), -(a20 * i01 + a21 * i11), zero + 1.0};
-  inverse.positive = (a00 + a11 > 0.0) & (determinant > 0.0);
-  return inverse;
-}
-Vec product(const Inverse<true>& inverse, const Vec& v) {
-  const Vec(&row)[3] = inverse.row;
-  return {row[0].x * v.x + row[0].y * v.y, row[1].x * v.x + row[1].y * v.y,
-          row[2].x * v.x + row[2].y * v.y + v.z};
-}
-
 // One Newton step of every multiplier (engine/patch/foot_point.cc). True where a further one is needed.
-template <bool flat>
-bool step_search(const RowSurface& surface, std::size_t count, FootSearch& search) {
+template <Shape shape>
+bool step_search(const Surface& surface, std::size_t count, FootSearch& search) {
   constexpr double near = 1e-7;  // in standard deviations: one more step squares it
-  const Lanes nan = Lanes{} + __builtin_nan("");
+  const Lanes nan = all(__builtin_nan(""));
   Mask far = {};
   for (std::size_t at = 0; at < count; at += width) {
     const Lanes l = lanes(search.l + at);
-    const Inverse<flat> inverse = invert<flat>(surface, load_cov(search, at), l);
-    const Vec Sn = product(inverse, load(search.Sn, at));  // at x
-    const Vec x = difference(load(search.q, at), scaled(Sn, l)), n = half_gradient(surface, x);
-    const Lanes f = implicit(x, n), half_slope = dot(n, product(inverse, Sn));
+    const Inverse<shape> inverse(surface, load_cov(search, at), l);
+    const Vec Sn = inverse.times(load(search.Sn, at));  // at x
+    const Vec x = difference(load(search.q, at), scaled(Sn, l)), n = half_gradient<shape>(surface, x);
+    const Lanes f = implicit(x, n), half_slope = dot(n, inverse.times(Sn));
     far |= f * f > 4.0 * near * near * dot(n, Sn);
     lanes(search.l + at) = inverse.positive ? l + 0.5 * f / half_slope : nan;  // gone astray: for good
   }
   return any(far);
 }
 
-template <bool flat>
-bool exact_rows_of(const RowSurface& surface, const SampleBlock& samples, std::size_t count,
-                   RowBlock& block) {
+template <Shape shape>
+bool exact_rows_of(const RowSurface& from, const SampleBlock& samples, std::size_t count, RowBlock& block) {
   constexpr int most_steps = 8;
+  const Surface surface(from);
   FootSearch search;
-  begin_search(surface, samples, count, search);
+  begin_search<shape>(surface, samples, count, search);
   Mask failed = {};
-  for (int step = 0; step < most_steps && step_search<flat>(surface, count, search); ++step) continue;
+  for (int step = 0; step < most_steps && step_search<shape>(surface, count, search); ++step) continue;
   for (std::size_t at = 0; at < count; at += width) {
     const Lanes l = lanes(search.l + at);
     const Sym S = load_cov(search, at);
-    const Inverse<flat> inverse = invert<flat>(surface, S, l);
-    const Vec Sn = product(inverse, load(search.Sn, at));
-    const Vec x = difference(load(search.q, at), scaled(Sn, l)), n = half_gradient(surface, x);
+    const Inverse<shape> inverse(surface, S, l);
+    const Vec Sn = inverse.times(load(search.Sn, at));
+    const Vec x = difference(load(search.q, at), scaled(Sn, l)), n = half_gradient<shape>(surface, x);
     const Lanes s = root(clamped(dot(n, Sn), trace(S), n)), m = 1.0 / s, half_m = 0.5 * m;
-    store_curvatures(surface, {x.x * x.x * half_m, x.y * x.y * half_m, x.z * x.z * half_m}, block, at);
+    store_curvatures<shape>(surface, {x.x * x.x * half_m, x.y * x.y * half_m, x.z * x.z * half_m}, block, at);
     store(block.row + 2, at, scaled(cross(n, x), m));  // Eq. (40)
     store(block.row + 5, at, scaled(n, -m));
     lanes(block.row[8] + at) = dot(n, Sn) * l * m;
     store(block.x, at, x);
     lanes(block.sigma + at) = s + s;
-    const Lanes f = implicit(x, n), zero = {}, one = zero + 1.0;
+    const Lanes f = implicit(x, n);
     const Mask found = inverse.positive & (f * f <= 1e-24 * s * s + 1e-30 * dot(x, x));
-    lanes(block.failed + at) = found ? zero : one;
+    lanes(block.failed + at) = found ? all(0.0) : all(1.0);
     failed |= lanes(block.failed + at) != 0.0;
   }
   return !any(failed);
 }
 
 bool exact_rows(const RowSurface& surface, const SampleBlock& samples, std::size_t count, RowBlock& block) {
-  const bool flat = surface.k3[2] == 0.0;
-  return flat ? exact_rows_of<true>(surface, samples, count, block)
-              : exact_rows_of<false>(surface, samples, count, block);
+  switch (shape_of(surface)) {
+    case Shape::paraboloid:
+      return exact_rows_of<Shape::paraboloid>(surface, samples, count, block);
+    case Shape::flat:
+      return exact_rows_of<Shape::flat>(surface, samples, count, block);
+    default:
+      return exact_rows_of<Shape::any>(surface, samples, count, block);
+  }
 }
 
 void height_rows(const HeightFrame& heights, const SampleBlock& samples, const double* share,
                  std::size_t count, RowBlock& block) {
-  const RowSurface& frame = heights.frame;
-  const Lanes zero = {};
-  const Vec n = {zero + frame.R[0][2], zero + frame.R[1][2], zero + frame.R[2][2]};
-  const double inverse = 1.0 / heights.size;
+  const Surface frame(heights.frame);
+  const Vec n = frame.column[2];
+  const Lanes inverse = all(1.0 / heights.size);
   for (std::size_t at = 0; at < count; at += width) {
-    const Sample sample = load(samples, at);
-    const Vec q = scaled(to_local(frame, sample.q), zero + inverse);
-    const Lanes v = clamped(dot(n, product(sample.cov, n)), trace(sample.cov), n);
-    const Lanes s = root(lanes(share + at) / v), half_sx = 0.5 * s * q.x;
+    const Sym C = load(samples, at).cov;
+    const Lanes v = dot(n, product(C, n));
+    lanes(block.sigma + at) = samples.thin ? clamped(v, trace(C), n) : v;
+  }
+  for (std::size_t at = 0; at < count; at += width) {
+    const Vec q = scaled(to_local(frame, load(samples.q, at)), inverse);
+    const Lanes s = root(lanes(share + at) / lanes(block.sigma + at)), sx = s * q.x, sy = s * q.y;
     lanes(block.row[0] + at) = s;
-    lanes(block.row[1] + at) = s * q.x;
-    lanes(block.row[2] + at) = s * q.y;
-    lanes(block.row[3] + at) = half_sx * q.x;
-    lanes(block.row[4] + at) = s * q.x * q.y;
-    lanes(block.row[5] + at) = 0.5 * s * q.y * q.y;
+    lanes(block.row[1] + at) = sx;
+    lanes(block.row[2] + at) = sy;
+    lanes(block.row[3] + at) = 0.5 * sx * q.x;
+    lanes(block.row[4] + at) = sx * q.y;
+    lanes(block.row[5] + at) = 0.5 * sy * q.y;
     lanes(block.row[6] + at) = s * q.z;
-    lanes(block.row[7] + at) = lanes(block.row[8] + at) = zero;
   }
 }
 
-// Products of three rows with three others, lane by lane; constant indices keep the sums in registers.
+// Products of three rows with `columns` others, lane by lane; constant indices keep the sums in registers.
+template <int columns>
 void add_products(const double* const* a, const double* const* b, std::size_t count,
                   double (*sums)[lane_count]) {
   for (std::size_t lane = 0; lane < lane_count; lane += width) {
-    Lanes sum[9];
-    for (int i = 0; i < 9; ++i) sum[i] = lanes(sums[i] + lane);
+    Lanes sum[3][columns];
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < columns; ++j) sum[i][j] = lanes(sums[3 * i + j] + lane);
+    }
     for (std::size_t at = lane; at < count; at += lane_count) {
       const Lanes a0 = lanes(a[0] + at), a1 = lanes(a[1] + at), a2 = lanes(a[2] + at);
-      const Lanes b0 = lanes(b[0] + at), b1 = lanes(b[1] + at), b2 = lanes(b[2] + at);
-      sum[0] += a0 * b0, sum[1] += a0 * b1, sum[2] += a0 * b2;
-      sum[3] += a1 * b0, sum[4] += a1 * b1, sum[5] += a1 * b2;
-      sum[6] += a2 * b0, sum[7] += a2 * b1, sum[8] += a2 * b2;
+      for (int j = 0; j < columns; ++j) {
+        const Lanes b_j = lanes(b[j] + at);
+        sum[0][j] += a0 * b_j, sum[1][j] += a1 * b_j, sum[2][j] += a2 * b_j;
+      }
     }
-    for (int i = 0; i < 9; ++i) lanes(sums[i] + lane) = sum[i];
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < columns; ++j) lanes(sums[3 * i + j] + lane) = sum[i][j];
+    }
   }
 }
 // Of three rows with themselves: those on and above the diagonal.
@@ -331,11 +403,14 @@ void add_squares(const double* const* a, std::size_t count, double (*sums)[lane_
   }
 }
 
-void add_rows(const double* const* rows, int groups, std::size_t count, RowSums& sums) {
+void add_rows(const double* const* rows, int row_count, std::size_t count, RowSums& sums) {
   int tile = 0;
-  for (int i = 0; i < groups; ++i) {
-    add_squares(rows + 3 * i, count, sums.tile[tile++]);
-    for (int j = i + 1; j < groups; ++j) add_products(rows + 3 * i, rows + 3 * j, count, sums.tile[tile++]);
+  for (int i = 0; i < row_count; i += 3) {
+    add_squares(rows + i, count, sums.tile[tile++]);
+    for (int j = i + 3; j < row_count; j += 3) {
+      const auto add = j + 1 == row_count ? add_products<1> : add_products<3>;
+      add(rows + i, rows + j, count, sums.tile[tile++]);
+    }
   }
 }
 

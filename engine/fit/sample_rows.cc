@@ -36,7 +36,7 @@ int groups_of(int free_size) { return (free_size + 1 + 2) / 3; }
 double product_of_rows(const RowSums& sums, int groups, int i, int j) {  // i <= j
   const int of_group = (i / 3) * groups - (i / 3) * (i / 3 - 1) / 2;     // where its tiles begin
   const double* lane = sums.tile[of_group + j / 3 - i / 3][3 * (i % 3) + j % 3];
-  return (lane[0] + lane[1]) + (lane[2] + lane[3]);
+  return Eigen::Map<const Eigen::Array<double, lane_count, 1>, Eigen::Aligned64>(lane).sum();
 }
 
 }  // namespace
@@ -83,12 +83,12 @@ Residual SampleRows::residual(const RowBlock& rows, std::size_t i) const {
 
 void SampleRows::add(const RowBlock& rows, std::size_t block, std::span<const int> free,
                      RowSums& sums) const {
-  alignas(32) static constexpr double nothing[block_size] = {};
+  alignas(64) static constexpr double nothing[block_size] = {};
   const double* columns[row_count] = {};
   std::fill(std::begin(columns), std::end(columns), nothing);
   for (std::size_t i = 0; i < free.size(); ++i) columns[i] = rows.row[free[i]];
   columns[free.size()] = rows.row[chart_size];
-  kernel_.add(columns, groups_of(static_cast<int>(free.size())), lanes_of(block), sums);
+  kernel_.add(columns, static_cast<int>(free.size()) + 1, lanes_of(block), sums);
 }
 
 NormalEquations normal_equations(const RowSums& sums, int free_size) {

@@ -13,10 +13,12 @@ namespace patchlab {
 
 // Parts that the samples of a large fit are shared out in; by their number alone, so that sums over them are
 // the same on any number of threads.
-inline constexpr std::size_t most_parts = 16, least_blocks_a_part = 32;
+inline constexpr std::size_t most_parts = 16, least_blocks_a_part = 24;
 
-inline std::size_t blocks_a_part(std::size_t blocks) {
-  return std::max(least_blocks_a_part, chunk_count(blocks, most_parts));
+inline std::size_t blocks_a_part(std::size_t blocks) {  // of even parts, a power of two of them
+  std::size_t parts = 1;
+  while (2 * parts <= most_parts && 2 * parts * least_blocks_a_part <= blocks) parts *= 2;
+  return chunk_count(std::max<std::size_t>(blocks, 1), parts);
 }
 
 // The sum of of_part(chunk of blocks), which runs on several threads at once.

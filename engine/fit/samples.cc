@@ -3,10 +3,14 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cstring>
+#include <numeric>
 #include <string>
 
 namespace patchlab {
 namespace {
+
+constexpr double no_extent = 1e-12;  // share of a covariance's trace below which a variance counts as none
 
 Error no_fit(std::string sentence) { return {ErrorCode::no_finite_fit, std::move(sentence)}; }
 
@@ -21,24 +25,28 @@ double thinnest(const Eigen::Matrix3d& cov) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cov, Eigen::EigenvaluesOnly).eigenvalues()[0] / trace;
 }
 
-// What is wrong with a sample; nothing where it is good.
-const char* fault_of(const Eigen::Vector3d& point, const Eigen::Matrix3d& cov) {
+// What is wrong with a sample; nothing where it is good. Counts those without extent in some direction.
+const char* fault_of(const Eigen::Vector3d& point, const Eigen::Matrix3d& cov, std::size_t& semidefinite) {
   if (!point.allFinite()) return "its position is not finite; remove it.";
   if (!cov.allFinite()) return "its covariance is not finite.";
   const double size = cov.cwiseAbs().maxCoeff();
   if ((cov - cov.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size) return "its covariance is not symmetric.";
-  if (cov.trace() <= 0.0 || thinnest(cov) < -1e-9) {
+  const double least = cov.trace() > 0.0 ? thinnest(cov) : -1.0;
+  if (least < -1e-9) {
     return "its covariance is not positive semi-definite; check the noise model or the file's columns.";
   }
+  if (least < no_extent) ++semidefinite;
   return nullptr;
 }
 
-Result<void> check_samples(const Observations& observations) {
+// How many covariances are semidefinite.
+Result<std::size_t> check_samples(const Observations& observations) {
+  std::size_t semidefinite = 0;
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    const char* fault = fault_of(observations.points[i], observations.covariances[i]);
+    const char* fault = fault_of(observations.points[i], observations.covariances[i], semidefinite);
     if (fault != nullptr) return no_fit("Point " + std::to_string(i) + " (counted from 0): " + fault);
   }
-  return {};
+  return semidefinite;
 }
 
 // Spread of the points in units of their noise, largest first, and the extent itself.
@@ -63,10 +71,12 @@ Spread spread_of(const Samples& samples) {
   return {against.eigenvalues().reverse(), plain.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt()};
 }
 
-Result<void> check_spread(const Samples& samples) {
+// Keeps their extent.
+Result<void> check_spread(Samples& samples) {
   constexpr double least_spread = 9.0;  // method M10
   constexpr double least_aspect = 1e-3;
   const Spread spread = spread_of(samples);
+  samples.extent = spread.extent.norm();
   if (spread.extent[0] == 0.0 || spread.against_noise[0] < least_spread) {
     return no_fit(
         "The points coincide within their noise: they do not span a surface; select a larger region.");
@@ -86,6 +96,17 @@ void set_edges_aside(Samples& samples, std::size_t least) {
   for (std::size_t i = 0; i < samples.size(); ++i) samples.bends[i] = at_edge[i] == 0 ? 1 : 0;
 }
 
+void put_cov(Samples& samples, std::size_t i) {
+  const Eigen::Matrix3d& cov = samples.cov[i];
+  const double entries[] = {cov(0, 0), cov(1, 0), cov(2, 0), cov(1, 1), cov(2, 1), cov(2, 2)};
+  const std::size_t last = i + 1 < samples.size() ? i + 1 : block_size * samples.blocks.size();
+  for (std::size_t at = i; at < last; ++at) {
+    for (std::size_t entry = 0; entry < 6; ++entry) {
+      samples.blocks[at / block_size].cov[entry][at % block_size] = entries[entry];
+    }
+  }
+}
+
 // The last block is filled up with the last sample.
 void fill_blocks(Samples& samples) {
   samples.blocks.resize((samples.size() + block_size - 1) / block_size);
@@ -95,20 +116,32 @@ void fill_blocks(Samples& samples) {
       samples.blocks[i / block_size].q[axis][i % block_size] = samples.q[from][axis];
     }
   }
-  for (std::size_t i = 0; i < samples.size(); ++i) samples.set_cov(i, samples.cov[i]);
+  for (std::size_t i = 0; i < samples.size(); ++i) put_cov(samples, i);
+  for (std::size_t i = 0; samples.semidefinite > 0 && i < samples.size(); ++i) {
+    if (thinnest(samples.cov[i]) < no_extent) samples.blocks[i / block_size].thin = true;
+  }
 }
 
 }  // namespace
 
 void Samples::set_cov(std::size_t i, const Eigen::Matrix3d& cov_i) {
   cov[i] = cov_i;
-  const double entries[] = {cov_i(0, 0), cov_i(1, 0), cov_i(2, 0), cov_i(1, 1), cov_i(2, 1), cov_i(2, 2)};
-  const std::size_t last = i + 1 < size() ? i + 1 : block_size * blocks.size();
-  for (std::size_t at = i; at < last; ++at) {
-    for (std::size_t entry = 0; entry < 6; ++entry) {
-      blocks[at / block_size].cov[entry][at % block_size] = entries[entry];
-    }
-  }
+  put_cov(*this, i);
+  if (thinnest(cov_i) < no_extent) blocks[i / block_size].thin = true;
+}
+
+bool Samples::all_count(std::size_t first, std::size_t count) const {
+  std::size_t wholly = 0;  // without an early end, so that the loop is one of vector instructions
+  for (std::size_t i = first; i < first + count; ++i) wholly += robust[i] == 1.0 ? 1 : 0;
+  return wholly == count && std::memchr(bends.data() + first, 0, count) == nullptr;
+}
+
+Eigen::Vector3d Samples::mean_viewpoint() const {
+  const std::vector<Eigen::Vector3d>& viewpoints = observations->viewpoints;
+  if (viewpoints.empty()) return viewpoint(0);
+  const Eigen::Vector3d sum =
+      std::accumulate(viewpoints.begin(), viewpoints.end(), Eigen::Vector3d(0.0, 0.0, 0.0));
+  return sum / static_cast<double>(size()) - origin;
 }
 
 Result<Samples> make_samples(const Observations& observations, std::size_t least) {
@@ -118,11 +151,9 @@ Result<Samples> make_samples(const Observations& observations, std::size_t least
                   std::to_string(least) + "; select a larger region.");
   }
   Samples samples;
-  const Result<void> sound = check_samples(observations);
-  if (!sound) return sound.error();
-  samples.semidefinite = static_cast<std::size_t>(
-      std::count_if(observations.covariances.begin(), observations.covariances.end(),
-                    [](const Eigen::Matrix3d& cov) { return thinnest(cov) < 1e-12; }));
+  const Result<std::size_t> semidefinite = check_samples(observations);
+  if (!semidefinite) return semidefinite.error();
+  samples.semidefinite = *semidefinite;
   samples.observations = &observations;
   for (const Eigen::Vector3d& point : observations.points) samples.origin += point;
   samples.origin /= static_cast<double>(n);

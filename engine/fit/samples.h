@@ -14,6 +14,7 @@ namespace patchlab {
 
 struct Samples {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // m: mean of the points, added back at the end
+  double extent = 0.0;                               // m: RMS distance of the points from origin
   std::vector<Eigen::Vector3d> q;                    // m, about origin
   std::vector<Eigen::Matrix3d> cov;                  // m^2, as measured or re-evaluated at the foot points
   std::vector<SampleBlock> blocks;                   // q and cov again, as the kernels read them
@@ -24,11 +25,14 @@ struct Samples {
   Progress progress = {};  // asked in every step of a fit: once it says stop, fits end where they are
 
   std::size_t size() const { return q.size(); }
+  // Whether all of these count, and count fully.
+  bool all_count(std::size_t first, std::size_t count) const;
   void set_cov(std::size_t i, const Eigen::Matrix3d& cov_i);
   Eigen::Vector3d viewpoint(std::size_t i) const {  // m, about origin
     const Observations& o = *observations;
     return (o.viewpoints.empty() ? o.viewpoint : o.viewpoints[i]) - origin;
   }
+  Eigen::Vector3d mean_viewpoint() const;  // of all points
 };
 
 // Checks of method M10: at least `least` points, every covariance finite, symmetric and positive

@@ -1,11 +1,16 @@
 #include "engine/fit/solve_least.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <limits>
 
 namespace patchlab {
 
 StepVector solve_least(const StepMatrix& A, const StepVector& b) {
+  constexpr double clearly = 1e-8;
+  const Eigen::LLT<StepMatrix> factor(A);
+  const double pivot = factor.matrixLLT().diagonal().cwiseAbs2().minCoeff();
+  if (factor.info() == Eigen::Success && pivot > clearly * A.diagonal().maxCoeff()) return factor.solve(b);
   const Eigen::SelfAdjointEigenSolver<StepMatrix> eigen(A);
   const StepVector& values = eigen.eigenvalues();
   const double least =

@@ -42,12 +42,6 @@ Result<void> check_options(const Workbench& work) {
   return {};
 }
 
-Vector3d mean_viewpoint(const Samples& samples) {
-  Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 0; i < samples.size(); ++i) sum += samples.viewpoint(i);
-  return samples.origin + sum / static_cast<double>(samples.size());
-}
-
 void log_bound(Workbench& work) {
   std::string sizes;
   const Boundary b = boundary(work.patch);
@@ -99,6 +93,13 @@ void bound(Workbench& work) {
               1e3 * clamped->d, 1e3 * clamped->limit)});
   }
   log_bound(work);
+}
+
+std::vector<double> paper_residuals(const Workbench& work) {
+  const SampleRows rows(work.samples, work.surface.model, work.surface.state, Distance::paper);
+  std::vector<double> residuals(work.samples.size());
+  for_each_residual(rows, [&](std::size_t i, const Residual& r) { residuals[i] = r.F; });
+  return residuals;
 }
 
 // Eq. (31): the quad of a rectangle.
@@ -269,7 +270,7 @@ Result<FitResult> conclude(Workbench& work) {
             words(work.surface_type).c_str(), work.surface.iterations)};
   }
   FitResult result;
-  result.patch = conventional(work.patch, mean_viewpoint(work.samples));
+  result.patch = conventional(work.patch, work.samples.origin + work.samples.mean_viewpoint());
   if (const Result<void> valid = validate(result.patch); !valid) {
     return Error{ErrorCode::no_finite_fit,
                  "The fit ended at what is no patch; select another region, or another surface. " +
@@ -285,10 +286,7 @@ Result<FitResult> conclude(Workbench& work) {
   report.warnings = work.notes;
   report.iterations = work.surface.iterations;
   report.converged = work.surface.converged;
-  const Distance distance = by_paper(work) ? Distance::paper : Distance::exact;
-  const SampleRows rows(work.samples, work.surface.model, work.surface.state, distance);
-  report.residuals.resize(work.samples.size());
-  for_each_residual(rows, [&](std::size_t i, const Residual& r) { report.residuals[i] = r.F; });
+  report.residuals = by_paper(work) ? paper_residuals(work) : std::move(work.feet.F);
   for (std::size_t i = 0; i < work.samples.size(); ++i) {
     if (work.samples.robust[i] == 0.0) {
       report.outliers.push_back(static_cast<std::uint32_t>(i));
