@@ -1,10 +1,10 @@
 // Residuals and their rows F_p, Eqs. (34)-(36), of many samples at once: the innermost loop of every fit, for
 // whatever vector instructions the machine has.
 //
-// All kernels compile the same lines (rows_kernel.h) and keep sums over the same eight lanes. Those of AVX2 and
-// AVX-512 fuse the same products and sums, and give the same bytes; the plain one rounds between them, and
-// agrees to 1e-12. engine/fit/distance.h says the same one sample at a time, in the words of the paper; the
-// tests hold the kernels to it.
+// All kernels compile the same lines (rows_kernel.h) and keep sums over the same eight lanes. Those of AVX2
+// and AVX-512 fuse the same products and sums, and give the same bytes; the plain one rounds between them,
+// and agrees to 1e-12. engine/fit/distance.h says the same one sample at a time, in the words of the paper;
+// the tests hold the kernels to it.
 //
 // The kernels see plain numbers only. Nothing inline of Eigen or of the standard library may be compiled for
 // one machine's instructions, where the linker could take it for all.
