@@ -20,7 +20,7 @@ struct FitRequest {
   std::optional<std::uint32_t> label;
   FitOptions options;
   std::vector<double> viewpoint;
-  std::string output;
+  std::string id = "patch-1", output;
   bool json = false, require_accepted = false, explain = false;
 };
 
@@ -63,7 +63,7 @@ Result<Document> run(const FitRequest& request) {
   if (!opened) return opened.error();
   Result<Select> select = selection(request, *session.document().scans.front().scan);
   if (!select) return select.error();
-  Fit fit{.patch = "patch-1", .region = select->region, .options = request.options};
+  Fit fit{.patch = request.id, .region = select->region, .options = request.options};
   for (const Command& command : {Command{std::move(*select)}, Command{std::move(fit)}}) {
     const Result<void> done = session.run(command, options);
     if (!done) return done.error();
@@ -154,6 +154,8 @@ Action set_up_fit(CLI::App& app) {
   add_scan_flags(app, request->flags);
   app.add_option("-o,--output", request->output, "write a patch set; - is standard output");
   app.add_flag("--json", request->json, "print the patch set instead of a table");
+  app.add_option("--id", request->id, "the patch's id in the set; two sets that are merged name theirs apart")
+      ->capture_default_str();
   app.add_flag("--require-accepted", request->require_accepted,
                "exit 1 where validation does not accept the fit");
   app.add_flag("--explain", request->explain, "tell the steps of the fit on standard error");

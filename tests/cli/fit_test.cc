@@ -40,6 +40,11 @@ TEST_F(FitVerb, WritesAPatchSetThatReadsBack) {
   EXPECT_EQ(set->sources.at(0).sha256.size(), 64u);
 }
 
+TEST_F(FitVerb, NamesThePatchAsAsked) {
+  EXPECT_EQ(patch("ball.csv --id left-mug")["id"], "left-mug");
+  EXPECT_EQ(patch("ball.csv")["id"], "patch-1");
+}
+
 TEST_F(FitVerb, GivesTheSameBytesEveryTimeAndOnEveryWayOut) {
   const std::string set = patchlab("fit ball.csv --robust on --json").out;
   EXPECT_EQ(patchlab("fit ball.csv --robust on --json").out, set);

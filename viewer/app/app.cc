@@ -16,7 +16,7 @@ namespace {
 
 constexpr double notice_seconds = 5.0, error_seconds = 12.0;
 constexpr std::size_t most_earlier_work = 8;
-constexpr double idle_patience = 0.5, toast_patience = 0.1;
+constexpr double idle_patience = 30.0, caret_patience = 0.3, work_patience = 0.1;  // s
 
 std::string time_of_day() {
   const std::time_t now = std::time(nullptr);
@@ -237,7 +237,8 @@ bool App::settled() const { return workbench_.idle() && !stage_.flying() && budg
 
 double App::patience() const {
   if (stage_.flying() || budget_.one_in > 1) return 0.0;
-  return state_.toasts.empty() && !state_.busy && !state_.fit_runs ? idle_patience : toast_patience;
+  if (!state_.toasts.empty() || !workbench_.idle()) return work_patience;
+  return ImGui::GetIO().WantTextInput ? caret_patience : idle_patience;
 }
 
 void App::frame() {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 
 #include "engine/base/file.h"
@@ -54,11 +56,24 @@ int run_without_user(const ViewerOptions& options, App& app, Platform& platform)
   return status;
 }
 
+// ImGui lays out what input changed over several frames.
+constexpr int frames_after_input = 3;
+
+// Waits at most so many seconds; whether something ended that early.
+bool something_came(Platform& platform, double patience) {
+  const auto start = std::chrono::steady_clock::now();
+  platform.wait_events(patience);
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+  return waited.count() < 0.9 * patience;
+}
+
 // Settings that cannot be written are not worth a word: the work itself is in the journal.
 int run_window(App& app, Platform& platform, const std::filesystem::path& settings_file) {
   Settings written = app.settings();
+  int to_rest = frames_after_input;
   while (!platform.should_close() && !app.wants_to_close()) {
-    platform.wait_events(app.patience());
+    to_rest = something_came(platform, to_rest > 0 ? 0.0 : app.patience()) ? frames_after_input
+                                                                           : std::max(to_rest - 1, 0);
     app.frame();
     if (app.settings() == written) continue;
     written = app.settings();
