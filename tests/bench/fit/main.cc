@@ -15,6 +15,7 @@
 #include "tests/bench/fit/patches.h"
 #include "tests/bench/fit/solvers.h"
 #include "tests/bench/fit/table.h"
+#include "tests/bench/page/page.h"
 
 namespace patchlab::bench {
 namespace {
@@ -255,5 +256,5 @@ int main(int argc, char** argv) {
   const std::string text =
       table(times, sets) + scaling(times, {150, 1500, 15000, 150000, 1000000}) + memory_used;
   std::fputs(text.c_str(), stdout);
-  if (!readme.empty() && !write_between_marks(readme, text)) return 1;
+  if (!readme.empty() && !write_between_marks(readme, "fits", text)) return 1;
 }

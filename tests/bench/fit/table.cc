@@ -1,43 +1,12 @@
 #include "tests/bench/fit/table.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
-#include <sstream>
-#include <thread>
 
 #include "engine/fit/rows.h"
+#include "tests/bench/page/page.h"
 
 namespace patchlab::bench {
-namespace {
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
-}
-
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  std::string line;
-  while (std::getline(in, line)) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown processor";
-}
-
-template <class... Numbers>
-std::string text(const char* format, Numbers... numbers) {
-  char buffer[128];
-  std::snprintf(buffer, sizeof buffer, format, numbers...);
-  return buffer;
-}
-
-}  // namespace
-
 void Collector::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
@@ -80,23 +49,6 @@ std::string exponent(double us, double us_before, std::size_t size, std::size_t 
   return text("%.2f", std::log(us / us_before) / grown);
 }
 
-std::string when_and_where() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  char date[16];
-  std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
-  return std::string(date) + ", " + processor() + text(", %u cores, ", std::thread::hardware_concurrency()) +
-         fastest_rows().name + " kernels";
-}
-
-bool write_between_marks(const std::string& file, const std::string& inner) {
-  std::stringstream all;
-  all << std::ifstream(file).rdbuf();
-  std::string contents = all.str();
-  const std::string from = "<!-- fits -->\n", to = "<!-- end -->";
-  const std::size_t begin = contents.find(from), end = contents.find(to, begin);
-  if (begin == std::string::npos || end == std::string::npos) return false;
-  contents.replace(begin + from.size(), end - begin - from.size(), inner);
-  return static_cast<bool>(std::ofstream(file) << contents);
-}
+std::string when_and_where() { return date_and_machine() + ", " + fastest_rows().name + " kernels"; }
 
 }  // namespace patchlab::bench

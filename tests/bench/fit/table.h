@@ -33,7 +33,4 @@ std::string exponent(double us, double us_before, std::size_t size, std::size_t 
 // Today and the kind of machine.
 std::string when_and_where();
 
-// The text between `<!-- fits -->` and `<!-- end -->`, replaced; false where the file has no such marks.
-bool write_between_marks(const std::string& file, const std::string& text);
-
 }  // namespace patchlab::bench

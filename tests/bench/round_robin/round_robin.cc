@@ -3,14 +3,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <fstream>
-#include <sstream>
-#include <thread>
 
 namespace patchlab::bench {
 namespace {
@@ -19,38 +14,6 @@ double now_ms(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
-}
-
-template <class... Numbers>
-std::string text(const char* format, Numbers... numbers) {
-  char buffer[128];
-  std::snprintf(buffer, sizeof buffer, format, numbers...);
-  return buffer;
-}
-
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  std::string line;
-  while (std::getline(in, line)) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown processor";
-}
-
-bool write_between_marks(const std::string& file, const std::string& mark, const std::string& inner) {
-  std::stringstream all;
-  all << std::ifstream(file).rdbuf();
-  std::string contents = all.str();
-  const std::string from = "<!-- " + mark + " -->\n", to = "<!-- end -->";
-  const std::size_t begin = contents.find(from), end = contents.find(to, begin);
-  if (begin == std::string::npos || end == std::string::npos) return false;
-  contents.replace(begin + from.size(), end - begin - from.size(), inner);
-  return static_cast<bool>(std::ofstream(file) << contents);
 }
 
 }  // namespace
@@ -110,13 +73,6 @@ std::string ratio_of(const RoundRobin& times, const std::string& name, const std
   if (!times.has(name) || !times.has(reference)) return "-";
   const double ratio = times.ratio(name, reference);
   return text(ratio < 3.0 ? "%.2f ×" : ratio < 30.0 ? "%.1f ×" : "%.0f ×", ratio);
-}
-
-std::string date_and_machine() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  char date[16];
-  std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
-  return std::string(date) + ", " + processor() + text(", %u cores", std::thread::hardware_concurrency());
 }
 
 int report(int argc, char** argv, const std::string& mark, const std::string& text) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/bench/page/page.h"
+
 namespace patchlab::bench {
 
 class RoundRobin {
@@ -42,9 +44,6 @@ class RoundRobin {
 std::string time_of(const RoundRobin& times, const std::string& name);
 // "18 ×", "0.92 ×"; "-" where either did not run.
 std::string ratio_of(const RoundRobin& times, const std::string& name, const std::string& reference);
-
-// "2026-01-31, PROCESSOR, 2 cores".
-std::string date_and_machine();
 
 // With `--page FILE` among the arguments, puts text between the file's `<!-- mark -->` and `<!-- end -->`;
 // prints it in any case. The program's exit status.
