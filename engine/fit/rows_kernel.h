@@ -1,136 +1,11 @@
-// The kernels of engine/fit/rows.h. Each rows_*.cc compiles them for its own instructions, in an unnamed
-// namespace: what is compiled for one machine cannot be linked into what runs on another.
+// The kernels of engine/fit/rows.h; all arithmetic is that of one sample.
 #pragma once
 
 #include "engine/fit/rows.h"
-
-#ifdef __AVX__
-#include <immintrin.h>
-#endif
+#include "engine/fit/rows_surface.h"
 
 namespace patchlab {
 namespace {
-
-// Numbers of as many samples as one instruction takes; all arithmetic below is that of one.
-#if defined(__AVX512F__)
-constexpr std::size_t width = 8;
-#elif defined(__AVX__)
-constexpr std::size_t width = 4;
-#else
-constexpr std::size_t width = 1;
-#endif
-#ifdef __AVX__
-using Lanes = double __attribute__((vector_size(8 * width), may_alias));
-#else
-using Lanes = double;
-#endif
-using Mask = decltype(Lanes{} < Lanes{});
-
-struct Vec {
-  Lanes x, y, z;
-};
-struct Sym {
-  Lanes xx, xy, xz, yy, yz, zz;
-};
-
-Lanes all(double number) { return Lanes{} + number; }
-Lanes dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec cross(const Vec& a, const Vec& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Vec scaled(const Vec& a, const Lanes& s) { return {a.x * s, a.y * s, a.z * s}; }
-Vec difference(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vec product(const Sym& S, const Vec& v) {
-  return {S.xx * v.x + S.xy * v.y + S.xz * v.z, S.xy * v.x + S.yy * v.y + S.yz * v.z,
-          S.xz * v.x + S.yz * v.y + S.zz * v.z};
-}
-Lanes trace(const Sym& S) { return S.xx + S.yy + S.zz; }
-
-#if defined(__AVX512F__)
-Lanes root(const Lanes& v) { return _mm512_maskz_sqrt_pd(0xff, v); }
-#elif defined(__AVX__)
-Lanes root(const Lanes& v) { return _mm256_sqrt_pd(v); }
-#else
-Lanes root(Lanes v) { return __builtin_sqrt(v); }
-#endif
-#ifdef __AVX__
-bool any(const Mask& mask) {
-  auto either = mask[0];
-  for (std::size_t i = 1; i < width; ++i) either |= mask[i];
-  return either != 0;
-}
-#else
-bool any(Mask mask) { return mask; }
-#endif
-
-Lanes& lanes(double* numbers) { return *reinterpret_cast<Lanes*>(numbers); }
-const Lanes& lanes(const double* numbers) { return *reinterpret_cast<const Lanes*>(numbers); }
-void store(double (*to)[block_size], std::size_t at, const Vec& v) {
-  lanes(to[0] + at) = v.x;
-  lanes(to[1] + at) = v.y;
-  lanes(to[2] + at) = v.z;
-}
-Vec load(const double (*from)[block_size], std::size_t at) {
-  return {lanes(from[0] + at), lanes(from[1] + at), lanes(from[2] + at)};
-}
-
-struct Sample {
-  Vec q;
-  Sym cov;
-};
-Sample load(const SampleBlock& block, std::size_t at) {
-  const auto cov = [&](int i) { return lanes(block.cov[i] + at); };
-  return {load(block.q, at), {cov(0), cov(1), cov(2), cov(3), cov(4), cov(5)}};
-}
-
-// What all samples share, in every lane.
-struct Surface {
-  Vec column[3];  // of R
-  Vec c;
-  Lanes k3[3], B[3][2];
-
-  explicit Surface(const RowSurface& from) : c{all(from.c[0]), all(from.c[1]), all(from.c[2])} {
-    for (int i = 0; i < 3; ++i) {
-      column[i] = {all(from.R[0][i]), all(from.R[1][i]), all(from.R[2][i])};
-      k3[i] = all(from.k3[i]);
-      for (int j = 0; j < 2; ++j) B[i][j] = all(from.B[i][j]);
-    }
-  }
-};
-
-// What is known of a surface while its kernel is compiled: of planes and paraboloids that they do not bend
-// along z, k3.z = 0; of the paraboloid of eight parameters that B is I there.
-enum class Shape { paraboloid, flat, any };
-Shape shape_of(const RowSurface& surface) {
-  const double(*B)[2] = surface.B;
-  if (surface.k3[2] != 0.0 || B[2][0] != 0.0 || B[2][1] != 0.0) return Shape::any;
-  const bool unit = B[0][0] == 1.0 && B[0][1] == 0.0 && B[1][0] == 0.0 && B[1][1] == 1.0;
-  return unit ? Shape::paraboloid : Shape::flat;
-}
-
-Vec turned(const Surface& surface, const Vec& v) {  // R v
-  const Vec(&R)[3] = surface.column;
-  return {R[0].x * v.x + R[1].x * v.y + R[2].x * v.z, R[0].y * v.x + R[1].y * v.y + R[2].y * v.z,
-          R[0].z * v.x + R[1].z * v.y + R[2].z * v.z};
-}
-Vec turned_back(const Surface& surface, const Vec& v) {  // R' v
-  return {dot(surface.column[0], v), dot(surface.column[1], v), dot(surface.column[2], v)};
-}
-Vec to_local(const Surface& surface, const Vec& q) {  // Eq. (4)
-  return turned_back(surface, difference(q, surface.c));
-}
-// n = K q - z: half the gradient, Eq. (39), so that no factor of 2 has to be multiplied out.
-template <Shape shape>
-Vec half_gradient(const Surface& surface, const Vec& q) {
-  const Lanes* k = surface.k3;
-  return {k[0] * q.x, k[1] * q.y, shape == Shape::any ? k[2] * q.z - 1.0 : all(-1.0)};
-}
-Lanes implicit(const Vec& q, const Vec& n) { return dot(q, n) - q.z; }  // Eq. (37)
-// Footnote 10, as in engine/fit/distance.cc: n' S n.
-Lanes clamped(const Lanes& v, const Lanes& trace_of_cov, const Vec& n) {
-  const Lanes least = 1e-12 * trace_of_cov * dot(n, n) + __DBL_MIN__;
-  return v < least ? least : v;
-}
 
 // B' v, the curvatures' part of a row.
 template <Shape shape>
@@ -318,15 +193,17 @@ bool exact_rows_of(const RowSurface& from, const SampleBlock& samples, std::size
     const Inverse<shape> inverse(surface, S, l);
     const Vec Sn = inverse.times(load(search.Sn, at));
     const Vec x = difference(load(search.q, at), scaled(Sn, l)), n = half_gradient<shape>(surface, x);
-    const Lanes s = root(clamped(dot(n, Sn), trace(S), n)), m = 1.0 / s, half_m = 0.5 * m;
+    const Lanes v = dot(n, Sn), at_least = clamped(v, trace(S), n);
+    const Lanes s = root(at_least), m = 1.0 / s, half_m = 0.5 * m;
     store_curvatures<shape>(surface, {x.x * x.x * half_m, x.y * x.y * half_m, x.z * x.z * half_m}, block, at);
     store(block.row + 2, at, scaled(cross(n, x), m));  // Eq. (40)
     store(block.row + 5, at, scaled(n, -m));
-    lanes(block.row[8] + at) = dot(n, Sn) * l * m;
+    lanes(block.row[8] + at) = v * l * m;
     store(block.x, at, x);
     lanes(block.sigma + at) = s + s;
     const Lanes f = implicit(x, n);
-    const Mask found = inverse.positive & (f * f <= 1e-24 * s * s + 1e-30 * dot(x, x));
+    // A covariance without extent along n is rounding there, and so is whatever multiplier solves it.
+    const Mask found = inverse.positive & (v >= at_least) & (f * f <= 1e-24 * s * s + 1e-30 * dot(x, x));
     lanes(block.failed + at) = found ? all(0.0) : all(1.0);
     failed |= lanes(block.failed + at) != 0.0;
   }

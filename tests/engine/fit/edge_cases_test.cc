@@ -1,84 +1,25 @@
-// What the fit answers where the points say little or nothing: an error or a warning with its value, never a
-// confident wrong answer.
+// What the fit answers where the points say little: a warning with its value, never a confident wrong answer.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "engine/fit/fit_patch.h"
 #include "engine/patch/surface.h"
+#include "tests/engine/fit/height_field.h"
 #include "tests/support/seeded_random.h"
 
 namespace patchlab {
 namespace {
 
+using test::bowl;
+using test::Field;
+using test::find;
+using test::fit;
+using test::observe;
 using test::SeededRandom;
-
-// Points of a height field z(u) over |x|, |y| <= half, 1 m in front of a camera that looks along +z, turned
-// by `tilt` about x, with isotropic noise.
-struct Field {
-  std::function<double(const Vector2d&)> height = [](const Vector2d&) { return 0.0; };
-  Vector2d half = {0.1, 0.08};  // m
-  double sigma = 1e-3;          // m
-  double tilt = 0.3;            // rad
-  std::size_t points = 300;
-};
-
-Observations observe(Random& random, const Field& field) {
-  Observations observations;
-  observations.optical_axis = Vector3d::UnitZ();
-  const Matrix3d R = exp_map(Vector3d(field.tilt, 0.0, 0.0)) * exp_map(Vector3d(3.14159265358979, 0.0, 0.0));
-  for (std::size_t i = 0; i < field.points; ++i) {
-    const Vector2d u(random.uniform(-1.0, 1.0) * field.half.x(), random.uniform(-1.0, 1.0) * field.half.y());
-    const Vector3d q = Vector3d(0.02, -0.03, 1.0) + R * Vector3d(u.x(), u.y(), field.height(u));
-    observations.points.push_back(q + field.sigma * random.normal3());
-    observations.covariances.push_back(field.sigma * field.sigma * Matrix3d::Identity());
-  }
-  return observations;
-}
-
-std::function<double(const Vector2d&)> bowl(double kx, double ky) {
-  return [=](const Vector2d& u) { return 0.5 * (kx * u.x() * u.x() + ky * u.y() * u.y()); };
-}
-
-Result<FitResult> fit(const Observations& observations, SurfaceRequest surface) {
-  FitOptions options;
-  options.surface = surface;
-  return fit_patch(observations, options);
-}
-
-const Finding* find(const std::vector<Finding>& findings, const std::string& name) {
-  const auto at =
-      std::find_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.name == name; });
-  return at == findings.end() ? nullptr : &*at;
-}
-
-void expect_refused(const Result<FitResult>& result, const std::string& says) {
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().code, ErrorCode::no_finite_fit);
-  EXPECT_NE(result.error().message.find(says), std::string::npos) << result.error().message;
-}
-
-TEST(EdgeCase, FewerPointsThanTheSurfaceNeedsAreRefusedAndEnoughAreNot) {
-  SeededRandom random;
-  const std::pair<SurfaceRequest, std::size_t> least[] = {{SurfaceRequest::plane, 4},
-                                                          {SurfaceRequest::sphere, 5},
-                                                          {SurfaceRequest::circular_paraboloid, 5},
-                                                          {SurfaceRequest::circular_cylinder, 6},
-                                                          {SurfaceRequest::cylindric_paraboloid, 6},
-                                                          {SurfaceRequest::elliptic_paraboloid, 7},
-                                                          {SurfaceRequest::hyperbolic_paraboloid, 7},
-                                                          {SurfaceRequest::automatic, 4}};
-  for (const auto& [surface, needed] : least) {
-    Field field;
-    field.points = needed - 1;
-    expect_refused(fit(observe(random, field), surface), "Too few points");
-  }
-}
 
 TEST(EdgeCase, FewPointsAreWarnedOf) {
   SeededRandom random;
@@ -90,53 +31,6 @@ TEST(EdgeCase, FewPointsAreWarnedOf) {
   ASSERT_NE(warning, nullptr);
   EXPECT_EQ(warning->value, 12.0);
   EXPECT_EQ(warning->limit, 15.0);
-}
-
-TEST(EdgeCase, NoPointsAtAllAreRefused) {
-  expect_refused(fit({}, SurfaceRequest::automatic), "Too few points: 0");
-}
-
-TEST(EdgeCase, CoincidentPointsAreRefused) {
-  SeededRandom random;
-  Field field;
-  field.half = {0.0, 0.0};
-  for (const double sigma : {1e-3, 1e-9}) {
-    field.sigma = sigma;
-    expect_refused(fit(observe(random, field), SurfaceRequest::sphere), "coincide");
-  }
-}
-
-TEST(EdgeCase, CollinearPointsAreRefused) {
-  SeededRandom random;
-  Field field;
-  field.half.y() = 0.0;
-  for (const double sigma : {1e-3, 1e-9}) {
-    field.sigma = sigma;
-    for (const SurfaceRequest surface : {SurfaceRequest::plane, SurfaceRequest::circular_cylinder}) {
-      expect_refused(fit(observe(random, field), surface), "line");
-    }
-  }
-}
-
-TEST(EdgeCase, BadCovariancesAreRefusedByRow) {
-  SeededRandom random;
-  const Observations good = observe(random, {});
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::pair<Matrix3d, const char*> bad[] = {
-      {Vector3d(1e-6, 1e-6, -1e-8).asDiagonal(), "not positive semi-definite"},
-      {Matrix3d::Zero(), "not positive semi-definite"},
-      {(Matrix3d() << 1e-6, 1e-7, 0, 0, 1e-6, 0, 0, 0, 1e-6).finished(), "not symmetric"},
-      {Matrix3d::Constant(nan), "not finite"}};
-  for (const auto& [cov, says] : bad) {
-    Observations observations = good;
-    observations.covariances[17] = cov;
-    const auto result = fit(observations, SurfaceRequest::plane);
-    expect_refused(result, says);
-    expect_refused(result, "Point 17");
-  }
-  Observations observations = good;
-  observations.points[5].y() = nan;
-  expect_refused(fit(observations, SurfaceRequest::plane), "Point 5");
 }
 
 TEST(EdgeCase, SemidefiniteCovariancesAreClampedAndNoted) {
@@ -396,31 +290,6 @@ TEST(EdgeCase, LongPipeIsAccepted) {
   const auto result = fit(observe(random, field), SurfaceRequest::circular_cylinder);
   ASSERT_TRUE(result);
   EXPECT_TRUE(result->report.accepted) << result->report.verdict;
-}
-
-TEST(EdgeCase, ContainmentOutsideItsRangeIsWrongUsage) {
-  SeededRandom random;
-  const Observations observations = observe(random, {});
-  for (const double gamma : {0.0, -0.5, 1.01, std::numeric_limits<double>::quiet_NaN()}) {
-    FitOptions options;
-    options.containment = gamma;
-    const auto result = fit_patch(observations, options);
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().code, ErrorCode::usage);
-  }
-}
-
-TEST(FitPatch, ThatIsToldToStopTakesNoFurtherSteps) {
-  SeededRandom random;
-  const Observations observations = observe(random, {.height = bowl(-4.0, -5.0)});
-  int asked = 0;
-  ASSERT_TRUE(fit_patch(observations, {}, [&asked](double) { return ++asked > 0; }));
-  const int in_full = asked;
-  asked = 0;
-  const Result<FitResult> stopped = fit_patch(observations, {}, [&asked](double) { return ++asked < 8; });
-  ASSERT_FALSE(stopped);
-  EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
-  EXPECT_LT(asked, in_full / 2) << "each fit that was still to come asks once";
 }
 
 }  // namespace
