@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <iterator>
 #include <memory>
 #include <numeric>
+#include <span>
 
 #include "engine/base/large_pages.h"
 #include "engine/base/parallel.h"
@@ -20,14 +22,30 @@ constexpr std::size_t points_a_part = 64 * block;         // that one thread loo
 
 // Leaves out the open candidates that are not inside.
 template <class IsInside>
-void decide(LassoCandidates& found, const IsInside& is_inside) {
-  std::size_t kept = found.open_count > 0 ? found.open[0] : found.count;
-  for (std::size_t i = kept, next = 0; i < found.count; ++i) {
-    const bool is_open = next < found.open_count && found.open[next] == i;
-    next += is_open ? 1 : 0;
-    if (!is_open || is_inside(found.points[i])) found.points[kept++] = found.points[i];
+void decide(LassoCandidates& found, std::size_t first, const IsInside& is_inside) {
+  for (std::size_t i = 0; i < found.open.size(); ++i) {
+    for (std::uint64_t open = found.open[i]; open != 0; open &= open - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(open));
+      if (!is_inside(static_cast<std::uint32_t>(first + 64 * i + bit)))
+        found.points[i] &= ~(std::uint64_t{1} << bit);
+    }
   }
-  found.count = kept;
+}
+
+// Their numbers, given bits and how many of them are set in each part.
+std::vector<std::uint32_t> numbers_of(std::span<const std::uint64_t> bits,
+                                      const std::vector<std::size_t>& counts) {
+  std::vector<std::size_t> begins(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), begins.begin() + 1);
+  std::vector<std::uint32_t> numbers;
+  reserve_large(numbers, begins.back());
+  numbers.resize(begins.back());
+  for_each_chunk(bits.size(), points_a_part / 64, [&](const Chunk& chunk) {
+    write_numbers(bits.subspan(chunk.first, chunk.last - chunk.first),
+                  static_cast<std::uint32_t>(64 * chunk.first),
+                  std::span(numbers).subspan(begins[chunk.number], counts[chunk.number]));
+  });
+  return numbers;
 }
 
 }  // namespace
@@ -57,28 +75,20 @@ std::vector<std::uint32_t> select_lasso(const Scan& scan, const ViewCamera& came
     return selected;
   }
   const CellCamera cells = cell_camera(camera, scan.origin, grid);
-  // Each chunk has its own place: memory that nothing is written to costs nothing.
-  const auto places = std::make_unique_for_overwrite<std::uint32_t[]>(scan.size());
+  const std::size_t words = (scan.size() + 63) / 64;
+  const auto bits = std::make_unique_for_overwrite<std::uint64_t[]>(words);
   std::vector<std::size_t> counts(chunk_count(scan.size(), points_a_part));
   for_each_chunk(scan.size(), points_a_part, [&](const Chunk& chunk) {
     LassoCandidates found;
-    std::uint32_t* const begin = places.get() + chunk.first;
-    std::uint32_t* end = begin;
     for (std::size_t first = chunk.first; first < chunk.last; first += block) {
       const std::size_t count = std::min(block, chunk.last - first);
-      find_candidates(cells, grid, scan.positions[first].data(), count, static_cast<std::uint32_t>(first),
-                      found);
-      decide(found, is_inside);
-      end = std::copy_n(found.points.begin(), found.count, end);
+      find_candidates(cells, grid, scan.positions[first].data(), count, found);
+      decide(found, first, is_inside);
+      std::copy_n(found.points.begin(), (count + 63) / 64, bits.get() + first / 64);
+      counts[chunk.number] += count_bits(found.points);
     }
-    counts[chunk.number] = static_cast<std::size_t>(end - begin);
   });
-  reserve_large(selected, std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
-  for (std::size_t part = 0; part < counts.size(); ++part) {
-    const std::uint32_t* const begin = places.get() + part * points_a_part;
-    selected.insert(selected.end(), begin, begin + counts[part]);
-  }
-  return selected;
+  return numbers_of({bits.get(), words}, counts);
 }
 
 std::vector<std::uint32_t> combine(const std::vector<std::uint32_t>& before,

@@ -1,68 +1,45 @@
 #include "engine/region/lasso_candidates.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
 
-#include "engine/region/projector.h"
-
 namespace patchlab {
 namespace {
 
-constexpr auto margin = static_cast<float>(PolygonMask::margin);
-
-float dot(const std::array<float, 4>& c, float x, float y, float z) {
-  return c[0] * x + c[1] * y + c[2] * z + c[3];
+float dot(const std::array<float, 4>& c, const float* q) {
+  return c[0] * q[0] + c[1] * q[1] + c[2] * q[2] + c[3];
 }
 
-// Points that may be in the grid, and the cells that they are seen in.
-struct OnGrid {
-  std::array<std::int32_t, LassoCandidates::capacity + 8> cells;  // room for a vector
-  std::array<std::uint32_t, LassoCandidates::capacity + 8> points;
-  std::size_t count = 0;
+struct Verdict {
+  bool candidate = false, open = false;
 };
 
-// As PolygonMask::Grid has it: a cell that stands for no place and leaves everything open.
-std::int32_t unsure_cell(const PolygonMask::Grid& grid) {
-  return static_cast<std::int32_t>(grid.columns * grid.rows + 1);
-}
-
-void add_one(const CellCamera& camera, const PolygonMask::Grid& grid, const float* q, std::uint32_t number,
-             OnGrid& found) {
-  const float depth = dot(camera.depth, q[0], q[1], q[2]);
-  const float rounding = dot(camera.rounding, std::abs(q[0]), std::abs(q[1]), std::abs(q[2]));
-  const float w = camera.perspective ? depth : 1.0F;
-  const float column = dot(camera.column, q[0], q[1], q[2]) / w, row = dot(camera.row, q[0], q[1], q[2]) / w;
-  const bool sure =
-      rounding < margin * w && rounding < depth - camera.near_plane && rounding < camera.far_plane - depth;
-  const bool on_grid = column >= 0.0F && row >= 0.0F && column < static_cast<float>(grid.columns) &&
-                       row < static_cast<float>(grid.rows);
-  const bool hidden = depth < camera.near_plane - rounding || depth > camera.far_plane + rounding ||
-                      std::isnan(q[0] + q[1] + q[2]);
-  if (sure ? !on_grid : hidden) return;
-  found.cells[found.count] = sure ? static_cast<std::int32_t>(row) * static_cast<std::int32_t>(grid.columns) +
-                                        static_cast<std::int32_t>(column)
-                                  : unsure_cell(grid);
-  found.points[found.count++] = number;
-}
-
-// Without branches: in which cells points lie follows no pattern.
-void judge(const PolygonMask::Grid& grid, const OnGrid& seen, LassoCandidates& found) {
-  static_assert(PolygonMask::outside == 0 && PolygonMask::inside == 1 && PolygonMask::on_edge == 2);
-  const PolygonMask::Cell* const cells = grid.cells;
-  std::size_t count = 0, open = 0;
-  for (std::size_t i = 0; i < seen.count; ++i) {
-    const unsigned cell = cells[seen.cells[i]];  // 0 outside, 1 inside, 2 on an edge
-    found.points[count] = seen.points[i];
-    found.open[open] = static_cast<std::uint32_t>(count);
-    open += cell >> 1U;
-    count += (cell | cell >> 1U) & 1U;
+Verdict judge(const CellCamera& camera, const PolygonMask::Grid& grid, const float* q) {
+  const float depth = dot(camera.depth, q), w = camera.perspective ? depth : 1.0F;
+  if (!(depth > camera.sure_from && depth < camera.sure_to)) {
+    const bool hidden = depth < camera.seen_from || depth > camera.seen_to || std::isnan(q[0] + q[1] + q[2]);
+    return {!hidden, !hidden};
   }
-  found.count = count;
-  found.open_count = open;
+  const float column = dot(camera.column, q), row = dot(camera.row, q);
+  const bool on_grid = column >= 0.0F && row >= 0.0F && column <= static_cast<float>(grid.columns) * w &&
+                       row <= static_cast<float>(grid.rows) * w;
+  if (!on_grid) return {};
+  const PolygonMask::Cell cell = grid.cell(std::min(static_cast<std::ptrdiff_t>(column / w), grid.columns),
+                                           std::min(static_cast<std::ptrdiff_t>(row / w), grid.rows));
+  return {cell != PolygonMask::outside, cell == PolygonMask::on_edge};
+}
+
+void add_one(const CellCamera& camera, const PolygonMask::Grid& grid, const float* xyz, std::size_t i,
+             LassoCandidates& found) {
+  const Verdict verdict = judge(camera, grid, xyz + 3 * i);
+  found.points[i / 64] |= std::uint64_t{verdict.candidate} << i % 64;
+  found.open[i / 64] |= std::uint64_t{verdict.open} << i % 64;
 }
 
 #if defined(__x86_64__)
@@ -90,139 +67,220 @@ struct EightPoints {
   return _mm256_fmadd_ps(_mm256_set1_ps(c[0]), q.x, _mm256_fmadd_ps(_mm256_set1_ps(c[1]), q.y, z));
 }
 
-// Which of eight points are hidden: looked at only where some are not sure.
-[[gnu::target("avx2,fma")]] unsigned hidden_of(const CellCamera& camera, const EightPoints& q, __m256 depth,
-                                               __m256 rounding) {
-  const __m256 nearer =
-      _mm256_cmp_ps(depth, _mm256_sub_ps(_mm256_set1_ps(camera.near_plane), rounding), _CMP_LT_OQ);
-  const __m256 farther =
-      _mm256_cmp_ps(depth, _mm256_add_ps(_mm256_set1_ps(camera.far_plane), rounding), _CMP_GT_OQ);
-  const __m256 sum = _mm256_add_ps(_mm256_add_ps(q.x, q.y), q.z);
-  const __m256 no_number = _mm256_cmp_ps(sum, sum, _CMP_UNORD_Q);
-  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_or_ps(_mm256_or_ps(nearer, farther), no_number)));
+[[gnu::target("avx2,fma")]] inline unsigned bits_of(__m256 lanes) {
+  return static_cast<unsigned>(_mm256_movemask_ps(lanes));
 }
 
-// For each mask of eight, the places of its bits, a nibble each.
+// Which of eight points are not between the planes, or no numbers.
+[[gnu::target("avx2,fma")]] inline unsigned hidden_of(const CellCamera& camera, const EightPoints& q,
+                                                      __m256 depth) {
+  const __m256 nearer = _mm256_cmp_ps(depth, _mm256_set1_ps(camera.seen_from), _CMP_LT_OQ);
+  const __m256 farther = _mm256_cmp_ps(depth, _mm256_set1_ps(camera.seen_to), _CMP_GT_OQ);
+  const __m256 sum = _mm256_add_ps(_mm256_add_ps(q.x, q.y), q.z);
+  return bits_of(_mm256_or_ps(_mm256_or_ps(nearer, farther), _mm256_cmp_ps(sum, sum, _CMP_UNORD_Q)));
+}
+
+// For each byte, the places of its bits, a nibble each.
 constexpr std::array<std::uint32_t, 256> places_of_bits = [] {
   std::array<std::uint32_t, 256> places = {};
-  for (std::uint32_t mask = 0; mask < 256; ++mask) {
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
     std::uint32_t count = 0;
     for (std::uint32_t bit = 0; bit < 8; ++bit) {
-      if ((mask >> bit & 1U) != 0) places[mask] |= bit << (4 * count++);
+      if ((byte >> bit & 1U) != 0) places[byte] |= bit << (4 * count++);
     }
   }
   return places;
 }();
 
-// Writes those of eight points whose bit is set, from place `at` on.
-[[gnu::target("avx2,fma")]] inline void write_some(unsigned mask, __m256i cells, __m256i numbers,
-                                                   std::size_t at, OnGrid& found) {
+// Points to be looked up, and in which cell, counted row by row.
+struct CellQueries {
+  std::array<std::int32_t, LassoCandidates::capacity + 8> cells;  // room for a vector
+  std::array<std::uint32_t, LassoCandidates::capacity + 8> points;
+  std::size_t count = 0;
+};
+
+// Adds those of eight points whose bit is set.
+[[gnu::target("avx2,popcnt")]] inline void add_some(unsigned mask, __m256i cells, __m256i points,
+                                                    CellQueries& queries) {
   const __m256i nibbles = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28);
   const __m256i packed = _mm256_set1_epi32(static_cast<int>(places_of_bits[mask]));
   const __m256i places = _mm256_srlv_epi32(packed, nibbles);  // of which three bits count
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(found.cells.data() + at),
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(queries.cells.data() + queries.count),
                       _mm256_permutevar8x32_epi32(cells, places));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(found.points.data() + at),
-                      _mm256_permutevar8x32_epi32(numbers, places));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(queries.points.data() + queries.count),
+                      _mm256_permutevar8x32_epi32(points, places));
+  queries.count += static_cast<std::size_t>(__builtin_popcount(mask));
+}
+
+// Eight cells at once: pays where all eight are wanted.
+[[gnu::target("avx2")]] inline void answer_eight(const PolygonMask::Grid& grid, __m256i cells,
+                                                 std::size_t byte, LassoCandidates& found) {
+  const __m256i words =
+      _mm256_i32gather_epi32(reinterpret_cast<const int*>(grid.words), _mm256_srli_epi32(cells, 4), 4);
+  const __m256i place = _mm256_slli_epi32(_mm256_and_si256(cells, _mm256_set1_epi32(15)), 1);
+  const __m256i cell = _mm256_srlv_epi32(words, place);
+  const unsigned open = bits_of(_mm256_castsi256_ps(_mm256_slli_epi32(cell, 30)));
+  const unsigned inside = bits_of(_mm256_castsi256_ps(_mm256_slli_epi32(cell, 31)));
+  reinterpret_cast<unsigned char*>(found.points.data())[byte] = static_cast<unsigned char>(inside | open);
+  reinterpret_cast<unsigned char*>(found.open.data())[byte] = static_cast<unsigned char>(open);
 }
 
 // The first points, eight at a time: as many as are returned.
+template <bool perspective>
 [[gnu::target("avx2,fma,popcnt")]] std::size_t add_eights(const CellCamera camera,
                                                           const PolygonMask::Grid grid, const float* xyz,
-                                                          std::size_t count, std::uint32_t first,
-                                                          OnGrid& found) {
-  const __m256 no_sign = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff)), zero = _mm256_setzero_ps();
-  const __m256 one = _mm256_set1_ps(1.0F), columns = _mm256_set1_ps(static_cast<float>(grid.columns));
-  const __m256 rows = _mm256_set1_ps(static_cast<float>(grid.rows));
-  __m256i numbers =
-      _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-  std::size_t i = 0, n = 0;
-  for (; i + 8 <= count; i += 8, numbers = _mm256_add_epi32(numbers, _mm256_set1_epi32(8))) {
+                                                          std::size_t count, LassoCandidates& found,
+                                                          CellQueries& queries) {
+  const __m256 zero = _mm256_setzero_ps(), one = _mm256_set1_ps(1.0F);
+  const __m256 columns = _mm256_set1_ps(static_cast<float>(grid.columns)),
+               rows = _mm256_set1_ps(static_cast<float>(grid.rows));
+  const __m256 sure_from = _mm256_set1_ps(camera.sure_from), sure_to = _mm256_set1_ps(camera.sure_to);
+  const __m256 cells_a_row = _mm256_set1_ps(static_cast<float>(grid.words_a_row * PolygonMask::cells_a_word));
+  const __m256i unsure_cell = _mm256_set1_epi32(static_cast<int>(grid.unsure_cell()));
+  const __m256i eight = _mm256_set1_epi32(8);
+  __m256i points = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  std::size_t i = 0;
+  for (; i + 8 <= count; i += 8, points = _mm256_add_epi32(points, eight)) {
+    __builtin_prefetch(xyz + 3 * i + 256);
+    __builtin_prefetch(xyz + 3 * i + 272);
     const EightPoints q = load_eight(xyz + 3 * i);
-    const EightPoints sizes = {_mm256_and_ps(q.x, no_sign), _mm256_and_ps(q.y, no_sign),
-                               _mm256_and_ps(q.z, no_sign)};
-    const __m256 depth = dot(camera.depth, q), rounding = dot(camera.rounding, sizes);
-    const __m256 w = camera.perspective ? depth : one, a_w = _mm256_div_ps(one, w);
-    const __m256 column = _mm256_mul_ps(dot(camera.column, q), a_w),
-                 row = _mm256_mul_ps(dot(camera.row, q), a_w);
-    const __m256 planes = _mm256_min_ps(_mm256_sub_ps(depth, _mm256_set1_ps(camera.near_plane)),
-                                        _mm256_sub_ps(_mm256_set1_ps(camera.far_plane), depth));
-    const __m256 room = _mm256_min_ps(planes, _mm256_mul_ps(_mm256_set1_ps(margin), w));
-    const __m256 sure = _mm256_cmp_ps(room, rounding, _CMP_GT_OQ);
-    const __m256 after =
-        _mm256_and_ps(_mm256_cmp_ps(column, zero, _CMP_GE_OQ), _mm256_cmp_ps(row, zero, _CMP_GE_OQ));
-    const __m256 before =
-        _mm256_and_ps(_mm256_cmp_ps(column, columns, _CMP_LT_OQ), _mm256_cmp_ps(row, rows, _CMP_LT_OQ));
-    auto mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_and_ps(_mm256_and_ps(after, before), sure)));
-    const unsigned unsure = 255U & ~static_cast<unsigned>(_mm256_movemask_ps(sure));
-    if (unsure != 0) mask |= unsure & ~hidden_of(camera, q, depth, rounding);
+    const __m256 depth = dot(camera.depth, q), w = perspective ? depth : one;
+    const __m256 column = dot(camera.column, q), row = dot(camera.row, q);
+    const __m256 room =
+        _mm256_min_ps(_mm256_min_ps(column, row),
+                      _mm256_min_ps(_mm256_fmsub_ps(columns, w, column), _mm256_fmsub_ps(rows, w, row)));
+    const __m256 on_grid = _mm256_cmp_ps(room, zero, _CMP_GE_OQ);
+    const __m256 sure =
+        _mm256_and_ps(_mm256_cmp_ps(depth, sure_from, _CMP_GT_OQ), _mm256_cmp_ps(depth, sure_to, _CMP_LT_OQ));
+    unsigned mask = bits_of(_mm256_and_ps(on_grid, sure));
+    const unsigned unsure = 255U & ~bits_of(sure);
+    if (unsure != 0) mask |= unsure & ~hidden_of(camera, q, depth);
     if (mask == 0) continue;
-    const __m256 whole_row = _mm256_round_ps(row, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
-    const __m256 whole_column = _mm256_round_ps(column, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
-    const __m256i cells =
-        _mm256_cvttps_epi32(_mm256_fmadd_ps(whole_row, columns, whole_column));  // below 2^24: exact
-    const __m256i nowhere = _mm256_set1_epi32(unsure_cell(grid));
-    write_some(mask, _mm256_blendv_epi8(nowhere, cells, _mm256_castps_si256(sure)), numbers, n, found);
-    n += static_cast<std::size_t>(__builtin_popcount(mask));
+    const __m256 a_w = _mm256_div_ps(one, w);
+    const __m256 whole_row = _mm256_round_ps(_mm256_mul_ps(row, a_w), _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+    const __m256 whole_column =
+        _mm256_round_ps(_mm256_mul_ps(column, a_w), _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+    const __m256i cells = _mm256_min_epu32(
+        _mm256_cvttps_epi32(_mm256_fmadd_ps(whole_row, cells_a_row, whole_column)),  // below 2^24: exact
+        unsure_cell);
+    const __m256i known = _mm256_blendv_epi8(unsure_cell, cells, _mm256_castps_si256(sure));
+    if (mask == 255)
+      answer_eight(grid, known, i / 8, found);
+    else
+      add_some(mask, known, points, queries);
   }
-  found.count = n;
+  return i;
+}
+
+// Without branches: in which cells points lie follows no pattern.
+[[gnu::target("avx2,bmi2")]] void answer(const PolygonMask::Grid& grid, const CellQueries& queries,
+                                         LassoCandidates& found) {
+  static_assert(PolygonMask::outside == 0 && PolygonMask::inside == 1 && PolygonMask::on_edge == 2);
+  alignas(32) std::array<std::uint8_t, LassoCandidates::capacity> cells = {};
+  const std::uint32_t* const words = grid.words;
+  for (std::size_t i = 0; i < queries.count; ++i) {
+    const auto cell = static_cast<std::uint32_t>(queries.cells[i]);
+    cells[queries.points[i]] = static_cast<std::uint8_t>(words[cell / 16] >> 2 * (cell % 16) & 3U);
+  }
+  for (std::size_t i = 0; i < cells.size(); i += 32) {
+    const __m256i some = _mm256_load_si256(reinterpret_cast<const __m256i*>(cells.data() + i));
+    const __m256i open = _mm256_slli_epi16(some, 6);  // the upper of each two bits comes first
+    const auto o = static_cast<std::uint32_t>(_mm256_movemask_epi8(open));
+    const auto c =
+        static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_or_si256(open, _mm256_slli_epi16(some, 7))));
+    found.open[i / 64] |= std::uint64_t{o} << i % 64;
+    found.points[i / 64] |= std::uint64_t{c} << i % 64;
+  }
+}
+
+[[gnu::target("popcnt")]] std::size_t count_bits_popcnt(std::span<const std::uint64_t> bits) {
+  std::size_t count = 0;
+  for (const std::uint64_t word : bits) count += static_cast<std::size_t>(__builtin_popcountll(word));
+  return count;
+}
+
+// Writes eight at a time, of which the next overwrite those too many, while there is place: as many words are
+// done as are returned.
+[[gnu::target("avx2,popcnt")]] std::size_t write_eights(std::span<const std::uint64_t> bits,
+                                                        std::uint32_t first, std::span<std::uint32_t> numbers,
+                                                        std::size_t& written) {
+  const __m256i nibbles = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28), three_bits = _mm256_set1_epi32(7);
+  std::size_t i = 0;
+  for (; i < bits.size() && written + 64 + 8 <= numbers.size(); ++i) {
+    __m256i number = _mm256_set1_epi32(static_cast<int>(first + 64 * static_cast<std::uint32_t>(i)));
+    std::uint64_t word = bits[i];
+    if (word == 0) continue;
+    for (int k = 0; k < 8; ++k, word >>= 8) {
+      const auto byte = static_cast<unsigned>(word & 255U);
+      const __m256i packed = _mm256_set1_epi32(static_cast<int>(places_of_bits[byte]));
+      const __m256i places = _mm256_and_si256(_mm256_srlv_epi32(packed, nibbles), three_bits);
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(numbers.data() + written),
+                          _mm256_add_epi32(number, places));
+      written += static_cast<std::size_t>(__builtin_popcount(byte));
+      number = _mm256_add_epi32(number, _mm256_set1_epi32(8));
+    }
+  }
   return i;
 }
 
 bool has_avx2() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("popcnt");
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+         __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("bmi2");
 }
 #endif
+
+void write_each(std::span<const std::uint64_t> bits, std::uint32_t first, std::uint32_t* number) {
+  for (std::size_t i = 0; i < bits.size(); ++i) {
+    for (std::uint64_t word = bits[i]; word != 0; word &= word - 1)
+      *number++ =
+          first + static_cast<std::uint32_t>(64 * i) + static_cast<std::uint32_t>(std::countr_zero(word));
+  }
+}
 
 }  // namespace
 
-// Each of the three linear forms sums four products: 6 roundings of 2^-24 of the sum of their sizes bound its
-// error. A column is at most `side`, so the error of its division is that of column.q plus side times that of
-// w. Twice that and more is allowed for, which holds what the bound itself is rounded by.
-CellCamera cell_camera(const ViewCamera& camera, const Eigen::Vector3d& origin,
-                       const PolygonMask::Grid& grid) {
-  constexpr double allowed = 16.0 / (1 << 24);
-  const Projector projector(camera);
-  const Eigen::Matrix<double, 3, 4> view = projector.view_from(origin);  // x right, y down, z depth
-  const Eigen::Vector2d shift = grid.cells_a_pixel * (projector.centre() - grid.low);
-  const double scale = grid.cells_a_pixel * projector.pixels();
-  const Eigen::RowVector4d depth = view.row(2),
-                           one = camera.perspective ? depth : Eigen::RowVector4d(0, 0, 0, 1);
-  const Eigen::RowVector4d column = scale * view.row(0) + shift.x() * one,
-                           row = scale * view.row(1) + shift.y() * one;
-  const auto side = static_cast<double>(std::max(grid.columns, grid.rows));
-  const Eigen::RowVector4d rounding =
-      allowed * (column.cwiseAbs().cwiseMax(row.cwiseAbs()) + side * one.cwiseAbs() + depth.cwiseAbs());
-  const auto narrow = [](const Eigen::RowVector4d& v) {
-    const Eigen::RowVector4f f = v.cast<float>();
-    return std::array<float, 4>{f[0], f[1], f[2], f[3]};
-  };
-  return {narrow(column),
-          narrow(row),
-          narrow(depth),
-          narrow(rounding),
-          static_cast<float>(camera.near_plane),
-          static_cast<float>(camera.far_plane),
-          camera.perspective};
-}
-
 void find_candidates_plain(const CellCamera& camera, const PolygonMask::Grid& grid, const float* xyz,
-                           std::size_t count, std::uint32_t first, LassoCandidates& found) {
-  OnGrid seen;
-  for (std::size_t i = 0; i < count; ++i)
-    add_one(camera, grid, xyz + 3 * i, first + static_cast<std::uint32_t>(i), seen);
-  judge(grid, seen, found);
+                           std::size_t count, LassoCandidates& found) {
+  found = {};
+  for (std::size_t i = 0; i < count; ++i) add_one(camera, grid, xyz, i, found);
 }
 
 void find_candidates(const CellCamera& camera, const PolygonMask::Grid& grid, const float* xyz,
-                     std::size_t count, std::uint32_t first, LassoCandidates& found) {
-  OnGrid seen;
+                     std::size_t count, LassoCandidates& found) {
+  found = {};
   std::size_t i = 0;
 #if defined(__x86_64__)
-  if (has_avx2()) i = add_eights(camera, grid, xyz, count, first, seen);
+  if (has_avx2()) {
+    CellQueries queries;
+    i = camera.perspective ? add_eights<true>(camera, grid, xyz, count, found, queries)
+                           : add_eights<false>(camera, grid, xyz, count, found, queries);
+    if (queries.count > 0) answer(grid, queries, found);
+  }
 #endif
-  for (; i < count; ++i) add_one(camera, grid, xyz + 3 * i, first + static_cast<std::uint32_t>(i), seen);
-  judge(grid, seen, found);
+  for (; i < count; ++i) add_one(camera, grid, xyz, i, found);
+}
+
+std::size_t count_bits(std::span<const std::uint64_t> bits) {
+#if defined(__x86_64__)
+  if (has_avx2()) return count_bits_popcnt(bits);
+#endif
+  return std::transform_reduce(
+      bits.begin(), bits.end(), std::size_t{0}, std::plus<>(),
+      [](std::uint64_t word) { return static_cast<std::size_t>(std::popcount(word)); });
+}
+
+void write_numbers_plain(std::span<const std::uint64_t> bits, std::uint32_t first,
+                         std::span<std::uint32_t> numbers) {
+  write_each(bits, first, numbers.data());
+}
+
+void write_numbers(std::span<const std::uint64_t> bits, std::uint32_t first,
+                   std::span<std::uint32_t> numbers) {
+  std::size_t words = 0, written = 0;
+#if defined(__x86_64__)
+  if (has_avx2()) words = write_eights(bits, first, numbers, written);
+#endif
+  write_each(bits.subspan(words), first + 64 * static_cast<std::uint32_t>(words), numbers.data() + written);
 }
 
 }  // namespace patchlab

@@ -10,6 +10,15 @@ constexpr double kMostCells = 2048;             // a side
 constexpr std::size_t kMostRowEdges = 1 << 20;  // in all rows together
 constexpr double kLargestCoordinate = 1 << 24;  // px: up to here rounding is small against the margin
 
+// Sets the cells [first, last) of a row, which are outside yet.
+void paint(std::uint32_t* row, std::ptrdiff_t first, std::ptrdiff_t last, PolygonMask::Cell cell) {
+  constexpr std::ptrdiff_t n = PolygonMask::cells_a_word;
+  const std::uint32_t all = 0x55555555U * cell;
+  for (; first < last && first % n != 0; ++first) row[first / n] |= std::uint32_t{cell} << 2 * (first % n);
+  for (; first + n <= last; first += n) row[first / n] = all;
+  for (; first < last; ++first) row[first / n] |= std::uint32_t{cell} << 2 * (first % n);
+}
+
 }  // namespace
 
 std::vector<PolygonEdge> polygon_edges(const std::vector<Eigen::Vector2d>& contour) {
@@ -30,8 +39,7 @@ bool inside_polygon(std::span<const PolygonEdge> edges, double x, double y) {
 PolygonMask::PolygonMask(const std::vector<Eigen::Vector2d>& contour) : edges_(polygon_edges(contour)) {
   if (!choose_grid()) return;
   bucket_edges();
-  mark_edge_cells();
-  fill_runs();
+  paint_rows();
 }
 
 bool PolygonMask::contains(double x, double y) const {
@@ -42,7 +50,7 @@ bool PolygonMask::contains(double x, double y) const {
                        row < static_cast<double>(rows_);
   if (!on_grid) return false;
   const auto r = static_cast<std::ptrdiff_t>(row);
-  const Cell cell = cells_[static_cast<std::size_t>(r * columns_ + static_cast<std::ptrdiff_t>(column))];
+  const Cell cell = grid().cell(static_cast<std::ptrdiff_t>(column), r);
   return cell == on_edge ? inside_polygon(edges_of(r), x, y) : cell == inside;
 }
 
@@ -60,20 +68,20 @@ bool PolygonMask::choose_grid() {
     high = high.cwiseMax(vertex);
     heights += std::abs(edge.ay - edge.by);
   }
-  low_ = (low_.array() - 1.0).floor();
-  const Eigen::Vector2d size = (high - low_).array() + 1.0;
+  const double widest = (high - low_).maxCoeff();
   const double most_heights = static_cast<double>(std::max(kMostRowEdges, 2 * edges_.size()));
-  while (size.maxCoeff() / cell_ > kMostCells || heights / cell_ > most_heights) cell_ *= 2.0;
+  while (widest / cell_ > kMostCells || heights / cell_ > most_heights) cell_ *= 2.0;
   cells_a_pixel_ = 1.0 / cell_;
-  columns_ = static_cast<std::ptrdiff_t>(size.x() / cell_) + 1;
-  rows_ = static_cast<std::ptrdiff_t>(size.y() / cell_) + 1;
+  low_ = (low_.array() - cell_).floor();
+  columns_ = static_cast<std::ptrdiff_t>((high - low_).x() * cells_a_pixel_) + 2;
+  rows_ = static_cast<std::ptrdiff_t>((high - low_).y() * cells_a_pixel_) + 2;
   return true;
 }
 
 PolygonMask::Span PolygonMask::cells_between(double v0, double v1, double origin,
                                              std::ptrdiff_t count) const {
   const auto index = [&](double value) {
-    return std::clamp(static_cast<std::ptrdiff_t>(std::floor((value - origin) / cell_)), std::ptrdiff_t{0},
+    return std::clamp(static_cast<std::ptrdiff_t>((value - origin) * cells_a_pixel_), std::ptrdiff_t{0},
                       count - 1);
   };
   return {index(std::min(v0, v1) - margin * cell_), index(std::max(v0, v1) + margin * cell_)};
@@ -110,31 +118,29 @@ void PolygonMask::bucket_edges() {
   }
 }
 
-void PolygonMask::mark_edge_cells() {
-  const auto count = static_cast<std::size_t>(rows_ * columns_);
-  cells_.assign(count + 5, outside);
-  cells_[count + 1] = on_edge;
+void PolygonMask::paint_rows() {
+  words_a_row_ = columns_ / cells_a_word + 1;
+  words_.assign(static_cast<std::size_t>(words_a_row_ * (rows_ + 1) + 1), outside);
+  words_.back() = on_edge;
+  std::vector<Span> edge_cells;
   for (std::ptrdiff_t r = 0; r < rows_; ++r) {
-    Cell* const row = cells_.data() + r * columns_;
-    for (const PolygonEdge& edge : edges_of(r)) {
-      const Span columns = columns_of(edge, r);
-      std::fill(row + columns.first, row + columns.last + 1, on_edge);
-    }
+    edge_cells.clear();
+    for (const PolygonEdge& edge : edges_of(r)) edge_cells.push_back(columns_of(edge, r));
+    std::ranges::sort(edge_cells, {}, &Span::first);
+    paint_row(r, edge_cells);
   }
 }
 
 // No edge touches the cells between two edge cells of a row: one test decides them all.
-void PolygonMask::fill_runs() {
-  for (std::ptrdiff_t r = 0; r < rows_; ++r) {
-    Cell* const row = cells_.data() + r * columns_;
-    Cell* const end = row + columns_;
-    const double y = low_.y() + (static_cast<double>(r) + 0.5) * cell_;
-    for (Cell* first = std::find(row, end, outside); first != end;) {
-      Cell* const last = std::find(first, end, on_edge);
-      const double x = low_.x() + (static_cast<double>(first - row) + 0.5) * cell_;
-      if (inside_polygon(edges_of(r), x, y)) std::fill(first, last, inside);
-      first = std::find(last, end, outside);
-    }
+void PolygonMask::paint_row(std::ptrdiff_t row, std::span<const Span> edge_cells) {
+  std::uint32_t* const words = words_.data() + row * words_a_row_;
+  const double y = low_.y() + (static_cast<double>(row) + 0.5) * cell_;
+  std::ptrdiff_t next = edge_cells.empty() ? 0 : edge_cells.front().first;
+  for (const Span& span : edge_cells) {
+    const double x = low_.x() + (static_cast<double>(next) + 0.5) * cell_;
+    if (next < span.first && inside_polygon(edges_of(row), x, y)) paint(words, next, span.first, inside);
+    paint(words, std::max(next, span.first), span.last + 1, on_edge);
+    next = std::max(next, span.last + 1);
   }
 }
 

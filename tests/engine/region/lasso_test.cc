@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "engine/base/random.h"
 #include "engine/region/lasso_candidates.h"
@@ -306,7 +307,15 @@ TEST(SelectLasso, EqualsTheExactTestFromAnyCamera) {
 }
 
 using Candidates = void (*)(const CellCamera&, const PolygonMask::Grid&, const float*, std::size_t,
-                            std::uint32_t, LassoCandidates&);
+                            LassoCandidates&);
+
+std::vector<std::uint32_t> numbers_of(const LassoCandidates::Bits& bits) {
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t i = 0; i < LassoCandidates::capacity; ++i) {
+    if ((bits[i / 64] >> i % 64 & 1U) != 0) numbers.push_back(i);
+  }
+  return numbers;
+}
 
 TEST(LassoCandidates, AreExactWhereTheyAreNotLeftOpenAndFewAre) {
   Random random(6);
@@ -319,31 +328,67 @@ TEST(LassoCandidates, AreExactWhereTheyAreNotLeftOpenAndFewAre) {
     view.far_plane = 6.5;
     const CellCamera camera = cell_camera(view, Eigen::Vector3d::Zero(), mask.grid());
     for (const Candidates candidates : {find_candidates, find_candidates_plain}) {
-      std::size_t found_inside = 0, found_open = 0;
-      for (std::uint32_t first = 0; first < 50; ++first) {
-        std::vector<Eigen::Vector3f> points(LassoCandidates::capacity - first);
-        for (Eigen::Vector3f& q : points) q = random.normal3().cast<float>() - Eigen::Vector3f(0, 0, 5);
-        const Scan scan = scan_of(points);
-        const std::vector<std::uint32_t> exact = tested_one_by_one(scan, view, contour);
-        LassoCandidates found;
-        candidates(camera, mask.grid(), points.front().data(), points.size(), 0, found);
-        const std::vector<std::uint32_t> all(found.points.begin(), found.points.begin() + found.count);
-        EXPECT_TRUE(std::ranges::is_sorted(all));
-        EXPECT_TRUE(std::ranges::includes(all, exact));
-        std::vector<std::uint32_t> sure;
-        for (std::uint32_t i = 0, next = 0; i < found.count; ++i) {
-          if (next < found.open_count && found.open[next] == i)
-            ++next;
-          else
-            sure.push_back(found.points[i]);
+      for (const double spread : {1.0, 0.1}) {  // most out of the lasso; most in it
+        std::size_t found_inside = 0, found_open = 0;
+        for (std::uint32_t less = 0; less < 50; ++less) {
+          std::vector<Eigen::Vector3f> points(LassoCandidates::capacity - less);
+          for (Eigen::Vector3f& q : points)
+            q = (spread * random.normal3()).cast<float>() - Eigen::Vector3f(0, 0, 5);
+          const Scan scan = scan_of(points);
+          const std::vector<std::uint32_t> exact = tested_one_by_one(scan, view, contour);
+          LassoCandidates found;
+          candidates(camera, mask.grid(), points.front().data(), points.size(), found);
+          const std::vector<std::uint32_t> all = numbers_of(found.points), open = numbers_of(found.open);
+          EXPECT_TRUE(std::ranges::includes(all, open));
+          EXPECT_TRUE(std::ranges::includes(all, exact));
+          EXPECT_TRUE(std::ranges::includes(exact, combine(all, open, SelectMode::subtract)));
+          found_inside += exact.size();
+          found_open += open.size();
         }
-        EXPECT_TRUE(std::ranges::includes(exact, sure));
-        found_inside += exact.size();
-        found_open += found.open_count;
+        EXPECT_GT(found_inside, 1'000u);
+        EXPECT_LT(found_open, found_inside / 10);
       }
-      EXPECT_GT(found_inside, 1'000u);
-      EXPECT_LT(found_open, found_inside / 10);
     }
+  }
+}
+
+TEST(LassoCandidates, HaveTheirNumbersWrittenInOrderAndNothingBesides) {
+  Random random(9);
+  for (const double share : {0.0, 0.01, 0.3, 0.99, 1.0}) {
+    for (std::size_t words = 0; words < 40; ++words) {
+      std::vector<std::uint64_t> bits(words);
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t i = 0; i < 64 * words; ++i) {
+        if (random.uniform() >= share) continue;
+        bits[i / 64] |= std::uint64_t{1} << i % 64;
+        expected.push_back(1000 + i);
+      }
+      EXPECT_EQ(count_bits(bits), expected.size());
+      for (const auto write : {write_numbers, write_numbers_plain}) {
+        std::vector<std::uint32_t> numbers(expected.size() + 1, 7);
+        write(bits, 1000, std::span(numbers).first(expected.size()));
+        EXPECT_EQ(numbers.back(), 7u);
+        numbers.pop_back();
+        EXPECT_EQ(numbers, expected);
+      }
+    }
+  }
+}
+
+// Neither the distance of the camera nor that of the lasso from the middle of the view leaves much open.
+TEST(CellCamera, IsSureOfMostDepths) {
+  const PolygonMask mask(circle({1200, 90}, 250, 200));
+  for (const double distance : {0.0, 10.0, 100.0}) {
+    ViewCamera view;
+    view.position = {0.0, distance, 0.0};
+    const CellCamera near = cell_camera(view, Eigen::Vector3d::Zero(), mask.grid());
+    EXPECT_LT(near.sure_from, 0.02 + 0.1 * distance);
+    EXPECT_GT(near.sure_to, 1e6F);
+    view.perspective = false;
+    view.height = 2.0 + distance;
+    const CellCamera flat = cell_camera(view, Eigen::Vector3d::Zero(), mask.grid());
+    EXPECT_LT(flat.sure_from, 0.02 + 0.01 * distance);
+    EXPECT_GT(flat.sure_to, 20.0F);
   }
 }
 
