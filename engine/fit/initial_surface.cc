@@ -81,6 +81,9 @@ NormalEquations mass_of_part(const Samples& samples, const Chunk& part) {
 }
 
 Mass mass(const Samples& samples) {
+  if (samples.all_count(0, samples.size())) {
+    return {samples.scatter, Vector3d::Zero(), static_cast<double>(samples.size())};
+  }
   const NormalEquations sums =
       sum_of_parts(samples.blocks.size(), [&](const Chunk& part) { return mass_of_part(samples, part); });
   return {sums.A, sums.b, sums.chi2};

@@ -8,18 +8,14 @@
 // F.
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
-namespace patchlab {
+#include "engine/fit/cholesky.h"
 
-// At most 9 parameters on the stack: no allocation inside a fit.
-using StepVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1>;
-using StepMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9>;
+namespace patchlab {
 
 struct NormalEquations {
   double cost = 0.0;
@@ -41,59 +37,6 @@ struct LeastSquaresOptions {
   double initial_damping = 1e-3;          // relative to the diagonal of A
   std::function<bool()> keep_going = {};  // asked before each step; false ends it where it is
 };
-
-// A = L L' of a size that is compiled: a few dozen instructions, where a general one is a few calls.
-template <int size>
-class Cholesky {
- public:
-  explicit Cholesky(const StepMatrix& A) {
-    for (int j = 0; j < size; ++j) {
-      for (int i = j; i < size; ++i) L_[j][i] = A(i, j);
-    }
-    for (int j = 0; j < size; ++j) {
-      positive_ = positive_ && L_[j][j] > 0.0;
-      inverse_[j] = 1.0 / std::sqrt(L_[j][j]);
-      for (int i = j + 1; i < size; ++i) L_[j][i] *= inverse_[j];
-      for (int k = j + 1; k < size; ++k) {
-        for (int i = k; i < size; ++i) L_[k][i] -= L_[j][k] * L_[j][i];
-      }
-    }
-  }
-  bool positive() const { return positive_; }
-
-  template <class Column>
-  void solve(Column&& x) const {  // in place
-    for (int j = 0; j < size; ++j) {
-      x[j] *= inverse_[j];
-      for (int i = j + 1; i < size; ++i) x[i] -= L_[j][i] * x[j];
-    }
-    for (int j = size - 1; j >= 0; --j) {
-      for (int i = j + 1; i < size; ++i) x[j] -= L_[j][i] * x[i];
-      x[j] *= inverse_[j];
-    }
-  }
-
- private:
-  double L_[size][size];  // by columns
-  double inverse_[size];  // of the diagonal
-  bool positive_ = true;
-};
-
-// The solution of A X = B, A symmetric and positive definite or nearly so; sizes up to 8 are compiled each.
-template <int size = 1, class Right>
-Right solve_positive(const StepMatrix& A, const Right& B) {
-  if constexpr (size > 8) {
-    return A.ldlt().solve(B);
-  } else if (A.rows() != size) {
-    return solve_positive<size + 1>(A, B);
-  } else {
-    const Cholesky<size> factor(A);
-    if (!factor.positive()) return A.ldlt().solve(B);
-    Right X = B;
-    for (Eigen::Index column = 0; column < X.cols(); ++column) factor.solve(X.col(column));
-    return X;
-  }
-}
 
 struct LeastSquaresSummary {
   bool converged = false;
@@ -131,10 +74,12 @@ LeastSquaresSummary minimise(const Problem& problem, typename Problem::State& st
     ++summary.iterations;
     const StepVector information = here.A.diagonal();
     scale = scale.cwiseMax(information).cwiseMax(1e-30 * information.maxCoeff());
-    const StepMatrix damped = here.A + StepMatrix((damping * scale).asDiagonal());
+    StepMatrix damped = here.A;
+    damped.diagonal() += damping * scale;
     const StepVector step = -solve_positive(damped, here.b);
-    const double length = step.dot(here.A * step);
-    const double predicted = step.dot(damping * scale.cwiseProduct(step) - here.b);
+    const double damped_length = damping * step.cwiseAbs2().dot(scale);
+    const double length = -step.dot(here.b) - damped_length;  // step' A step
+    const double predicted = length + 2.0 * damped_length;
     auto candidate = problem.retract(state, step);
     if (length < options.stop && damping < 1.0) {
       state = std::move(candidate);

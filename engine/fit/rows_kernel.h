@@ -43,6 +43,7 @@ bool paper_rows_of(const RowSurface& from, const SampleBlock& samples, std::size
   alignas(64) double S_n[3][block_size], inverse[block_size];
   const Surface surface(from);
   for (std::size_t at = 0; at < count; at += width) {
+    prefetch_next(samples, at);
     const Sample sample = load(samples, at);
     const Vec q = to_local(surface, sample.q), n = half_gradient<shape>(surface, q);
     const Vec Sn = turned_back(surface, product(sample.cov, turned(surface, n)));
@@ -108,6 +109,7 @@ Sym local_cov(const Surface& surface, const Sym& C) {
 template <Shape shape>
 void begin_search(const Surface& surface, const SampleBlock& samples, std::size_t count, FootSearch& search) {
   for (std::size_t at = 0; at < count; at += width) {
+    prefetch_next(samples, at);
     const Sample sample = load(samples, at);
     const Vec q = to_local(surface, sample.q), n = half_gradient<shape>(surface, q);
     const Sym S = local_cov(surface, sample.cov);
@@ -227,6 +229,7 @@ void height_rows(const HeightFrame& heights, const SampleBlock& samples, const d
   const Vec n = frame.column[2];
   const Lanes inverse = all(1.0 / heights.size);
   for (std::size_t at = 0; at < count; at += width) {
+    prefetch_next(samples, at);
     const Sym C = load(samples, at).cov;
     const Lanes v = dot(n, product(C, n));
     lanes(block.sigma + at) = samples.thin ? clamped(v, trace(C), n) : v;

@@ -74,5 +74,14 @@ inline Vec load(const double (*from)[block_size], std::size_t at) {
   return {lanes(from[0] + at), lanes(from[1] + at), lanes(from[2] + at)};
 }
 
+// Asks for a share of the block after this one, so that all of it is at hand when its turn comes: nine rows
+// side by side are more streams than the hardware foresees.
+inline void prefetch_next(const SampleBlock& block, std::size_t at) {
+  constexpr std::size_t line = 64, steps = block_size / width;
+  constexpr std::size_t lines = (sizeof(SampleBlock) / line + steps - 1) / steps;
+  const char* next = reinterpret_cast<const char*>(&block + 1) + at / width * lines * line;
+  for (std::size_t i = 0; i < lines; ++i) __builtin_prefetch(next + i * line);
+}
+
 }  // namespace
 }  // namespace patchlab

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/repeat.h"
 #include "engine/patch/surface.h"
 
 namespace patchlab {
@@ -30,13 +31,39 @@ void put(const Residual& residual, std::size_t i, RowBlock& rows) {
   rows.sigma[i] = std::sqrt(residual.v);
 }
 
-// Groups of three rows that hold the free columns and F.
-int groups_of(int free_size) { return (free_size + 1 + 2) / 3; }
-
-double product_of_rows(const RowSums& sums, int groups, int i, int j) {  // i <= j
-  const int of_group = (i / 3) * groups - (i / 3) * (i / 3 - 1) / 2;     // where its tiles begin
-  const double* lane = sums.tile[of_group + j / 3 - i / 3][3 * (i % 3) + j % 3];
+double sum_of_lanes(const double (&lane)[lane_count]) {
   return Eigen::Map<const Eigen::Array<double, lane_count, 1>, Eigen::Aligned64>(lane).sum();
+}
+
+// The tile of rows i and j of `size` columns and F after them, i <= j, as RowSums has them.
+template <int size>
+constexpr int tile_of(int i, int j) {
+  constexpr int groups = (size + 3) / 3;
+  const int first = i / 3 * groups - i / 3 * (i / 3 - 1) / 2;
+  return first + j / 3 - i / 3;
+}
+
+template <int size = 1>
+NormalEquations equations_of(const RowSums& sums, int free_size) {
+  if constexpr (size < chart_size) {
+    if (free_size != size) return equations_of<size + 1>(sums, free_size);
+  }
+  NormalEquations equations{0.0, StepMatrix(size, size), StepVector(size)};
+  double *A = equations.A.data(), *b = equations.b.data();
+  repeat<size + 1>([&](auto i) {
+    repeat<size + 1 - i>([&](auto after) {
+      constexpr int j = i + after;
+      const double sum = sum_of_lanes(sums.tile[tile_of<size>(i, j)][3 * (i % 3) + j % 3]);
+      if constexpr (j < size) {
+        A[i * size + j] = A[j * size + i] = sum;
+      } else if constexpr (i < size) {
+        b[i] = sum;
+      } else {
+        equations.cost = equations.chi2 = sum;
+      }
+    });
+  });
+  return equations;
 }
 
 }  // namespace
@@ -91,17 +118,6 @@ void SampleRows::add(const RowBlock& rows, std::size_t block, std::span<const in
   kernel_.add(columns, static_cast<int>(free.size()) + 1, lanes_of(block), sums);
 }
 
-NormalEquations normal_equations(const RowSums& sums, int free_size) {
-  const int groups = groups_of(free_size);
-  NormalEquations equations{0.0, StepMatrix(free_size, free_size), StepVector(free_size)};
-  for (int i = 0; i < free_size; ++i) {
-    for (int j = i; j < free_size; ++j) {
-      equations.A(i, j) = equations.A(j, i) = product_of_rows(sums, groups, i, j);
-    }
-    equations.b[i] = product_of_rows(sums, groups, i, free_size);
-  }
-  equations.cost = equations.chi2 = product_of_rows(sums, groups, free_size, free_size);
-  return equations;
-}
+NormalEquations normal_equations(const RowSums& sums, int free_size) { return equations_of(sums, free_size); }
 
 }  // namespace patchlab

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <numeric>
 #include <string>
@@ -56,12 +57,9 @@ struct Spread {
 };
 
 Spread spread_of(const Samples& samples) {
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero(), noise = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    scatter += samples.q[i] * samples.q[i].transpose();
-    noise += samples.cov[i];
-  }
-  scatter /= static_cast<double>(samples.size());
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
+  for (const Eigen::Matrix3d& cov : samples.cov) noise += cov;
+  const Eigen::Matrix3d scatter = samples.scatter / static_cast<double>(samples.size());
   noise /= static_cast<double>(samples.size());
   const double floor = 1e-12 * scatter.trace() + 1e-300;
   noise.diagonal().array() += 1e-6 * noise.trace() + floor;
@@ -71,10 +69,11 @@ Spread spread_of(const Samples& samples) {
   return {against.eigenvalues().reverse(), plain.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt()};
 }
 
-// Keeps their extent.
+// Keeps their scatter and extent.
 Result<void> check_spread(Samples& samples) {
   constexpr double least_spread = 9.0;  // method M10
   constexpr double least_aspect = 1e-3;
+  for (const Eigen::Vector3d& q : samples.q) samples.scatter += q * q.transpose();
   const Spread spread = spread_of(samples);
   samples.extent = spread.extent.norm();
   if (spread.extent[0] == 0.0 || spread.against_noise[0] < least_spread) {
@@ -131,9 +130,10 @@ void Samples::set_cov(std::size_t i, const Eigen::Matrix3d& cov_i) {
 }
 
 bool Samples::all_count(std::size_t first, std::size_t count) const {
-  std::size_t wholly = 0;  // without an early end, so that the loop is one of vector instructions
-  for (std::size_t i = first; i < first + count; ++i) wholly += robust[i] == 1.0 ? 1 : 0;
-  return wholly == count && std::memchr(bends.data() + first, 0, count) == nullptr;
+  std::uint64_t other = 0;  // without an early end, so that the loop is one of vector instructions
+  for (std::size_t i = first; i < first + count; ++i)
+    other |= std::bit_cast<std::uint64_t>(robust[i]) ^ std::bit_cast<std::uint64_t>(1.0);
+  return other == 0 && std::memchr(bends.data() + first, 0, count) == nullptr;
 }
 
 Eigen::Vector3d Samples::mean_viewpoint() const {

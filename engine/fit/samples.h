@@ -13,15 +13,16 @@
 namespace patchlab {
 
 struct Samples {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // m: mean of the points, added back at the end
-  double extent = 0.0;                               // m: RMS distance of the points from origin
-  std::vector<Eigen::Vector3d> q;                    // m, about origin
-  std::vector<Eigen::Matrix3d> cov;                  // m^2, as measured or re-evaluated at the foot points
-  std::vector<SampleBlock> blocks;                   // q and cov again, as the kernels read them
-  std::size_t semidefinite = 0;                      // covariances without extent in some direction
-  std::vector<double> robust;                        // Tukey weight in [0, 1]; 1 where nothing is doubted
-  std::vector<std::uint8_t> bends;                   // 0 where a point counts for the outline alone (M13)
-  const Observations* observations = nullptr;        // outlives the samples
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();   // m: mean of the points, added back at the end
+  double extent = 0.0;                                // m: RMS distance of the points from origin
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  // m^2: sum of q q' over all points
+  std::vector<Eigen::Vector3d> q;                     // m, about origin
+  std::vector<Eigen::Matrix3d> cov;                   // m^2, as measured or re-evaluated at the foot points
+  std::vector<SampleBlock> blocks;                    // q and cov again, as the kernels read them
+  std::size_t semidefinite = 0;                       // covariances without extent in some direction
+  std::vector<double> robust;                         // Tukey weight in [0, 1]; 1 where nothing is doubted
+  std::vector<std::uint8_t> bends;                    // 0 where a point counts for the outline alone (M13)
+  const Observations* observations = nullptr;         // outlives the samples
   Progress progress = {};  // asked in every step of a fit: once it says stop, fits end where they are
 
   std::size_t size() const { return q.size(); }

@@ -3,8 +3,6 @@
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
 
-#include <Eigen/LU>
-
 #include <cmath>
 #include <vector>
 
@@ -142,8 +140,7 @@ Solved ceres(Ceres way, const Samples& samples, const Objective& objective, cons
   if (covariance.Compute(std::vector<const double*>{p.data()}, &problem)) {
     covariance.GetCovarianceBlock(p.data(), p.data(), cov.data());
   }
-  return {2.0 * summary.final_cost, std::log(cov.determinant()), p.tail<3>(),
-          summary.num_residual_evaluations};
+  return {2.0 * summary.final_cost, cov, p.tail<3>(), summary.num_residual_evaluations};
 }
 
 }  // namespace patchlab::bench

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <tbb/task_arena.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -130,7 +131,7 @@ void print_accuracy(const Set& set) {
   for (std::size_t i = 0; i < set.samples.size(); ++i) {
     const Solved tight = ours(set.samples[i], {}, 1e-14), loose = ours(set.samples[i], {});
     gap_ours += (loose.chi2 / tight.chi2 - 1.0) / n;
-    log_det += std::abs(loose.log_det - tight.log_det) / n;
+    log_det += std::abs(std::log(loose.cov.determinant() / tight.cov.determinant())) / n;
     if (has_ceres()) {
       gap_ceres +=
           (ceres(Ceres::normal_cholesky, set.samples[i], {}, set.starts[i]).chi2 / tight.chi2 - 1.0) / n;

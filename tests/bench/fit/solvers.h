@@ -8,7 +8,7 @@ namespace patchlab::bench {
 // An eight-parameter paraboloid.
 struct Solved {
   double chi2 = 0.0;
-  double log_det = 0.0;  // of the covariance of the parameters, as each parametrises them
+  Eigen::Matrix<double, 8, 8> cov;  // of the parameters, as each parametrises them
   Eigen::Vector3d apex = Eigen::Vector3d::Zero();
   int evaluations = 0;
 };
