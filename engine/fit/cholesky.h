@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "engine/base/repeat.h"
 
@@ -22,8 +23,9 @@ class Cholesky {
       repeat<size - j>([&](auto below) { L_[j][j + below] = A.data()[j * size + j + below]; });
     });
     repeat<size>([&](auto j) {
-      positive_ = positive_ && L_[j][j] > 0.0;
-      inverse_[j] = 1.0 / L_[j][j];
+      D_[j] = L_[j][j];
+      positive_ = positive_ && D_[j] > 0.0;
+      inverse_[j] = 1.0 / D_[j];
       repeat<size - 1 - j>([&](auto after) {
         constexpr int k = j + 1 + after;
         const double share = L_[j][k] * inverse_[j];
@@ -33,6 +35,7 @@ class Cholesky {
     });
   }
   bool positive() const { return positive_; }
+  double least_pivot() const { return *std::min_element(D_, D_ + size); }
 
   void solve(double* b) const {  // in place
     double x[size];
@@ -49,25 +52,28 @@ class Cholesky {
   }
 
  private:
-  double L_[size][size];
-  double inverse_[size];  // of D
+  double L_[size][size], D_[size], inverse_[size];  // 1 / D
   bool positive_ = true;
 };
 
-// The solution of A X = B, A symmetric and positive definite or nearly so; sizes up to 8 are compiled each.
-template <int size = 1, class Right>
+// use(factor) of A, which has at most 9 rows; each size is compiled.
+template <int size = 1, class Use>
+auto with_factor(const StepMatrix& A, const Use& use) {
+  if constexpr (size < 9) {
+    if (A.rows() != size) return with_factor<size + 1>(A, use);
+  }
+  return use(Cholesky<size>(A));
+}
+
+// The solution of A X = B, A symmetric and positive definite or nearly so.
+template <class Right>
 Right solve_positive(const StepMatrix& A, const Right& B) {
-  if constexpr (size > 8) {
-    return A.ldlt().solve(B);
-  } else if (A.rows() != size) {
-    return solve_positive<size + 1>(A, B);
-  } else {
-    const Cholesky<size> factor(A);
+  return with_factor(A, [&](const auto& factor) -> Right {
     if (!factor.positive()) return A.ldlt().solve(B);
     Right X = B;
-    for (Eigen::Index column = 0; column < X.cols(); ++column) factor.solve(X.data() + column * size);
+    for (Eigen::Index column = 0; column < X.cols(); ++column) factor.solve(X.data() + column * X.rows());
     return X;
-  }
+  });
 }
 
 }  // namespace patchlab

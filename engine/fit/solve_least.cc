@@ -1,16 +1,28 @@
 #include "engine/fit/solve_least.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <limits>
+#include <optional>
 
 namespace patchlab {
+namespace {
+
+// Where no direction is nearly open.
+std::optional<StepVector> by_factor(const StepMatrix& A, const StepVector& b) {
+  constexpr double clearly = 1e-8;
+  const double least = clearly * A.diagonal().maxCoeff();
+  return with_factor(A, [&](const auto& factor) -> std::optional<StepVector> {
+    if (!factor.positive() || !(factor.least_pivot() > least)) return std::nullopt;
+    StepVector x = b;
+    factor.solve(x.data());
+    return x;
+  });
+}
+
+}  // namespace
 
 StepVector solve_least(const StepMatrix& A, const StepVector& b) {
-  constexpr double clearly = 1e-8;
-  const Eigen::LLT<StepMatrix> factor(A);
-  const double pivot = factor.matrixLLT().diagonal().cwiseAbs2().minCoeff();
-  if (factor.info() == Eigen::Success && pivot > clearly * A.diagonal().maxCoeff()) return factor.solve(b);
+  if (const std::optional<StepVector> x = by_factor(A, b)) return *x;
   const Eigen::SelfAdjointEigenSolver<StepMatrix> eigen(A);
   const StepVector& values = eigen.eigenvalues();
   const double least =

@@ -1,7 +1,7 @@
 // Normal equations that may leave some direction open.
 #pragma once
 
-#include "engine/fit/least_squares.h"
+#include "engine/fit/cholesky.h"
 
 namespace patchlab {
 
