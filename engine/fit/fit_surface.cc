@@ -24,10 +24,23 @@ bool counts(const Samples& samples, std::size_t i) {
   return samples.robust[i] != 0.0 && samples.bends[i] != 0;
 }
 
-// Rows of a block as the sums are to take them: scaled by the root of their weight, 0 where a sample does not
-// count, whatever was there. The loss and chi-square of those that count.
+// Rows of 0 where a sample does not count, whatever was there.
+void set_aside(const Samples& samples, std::size_t first, std::size_t count, RowBlock& rows) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (counts(samples, first + i)) continue;
+    for (auto& row : rows.row) row[i] = 0.0;
+  }
+}
+
+// Rows of a block as the sums are to take them by robust weights: scaled by their root. The loss and
+// chi-square of those that count.
 struct Losses {
   double cost = 0.0, chi2 = 0.0;
+
+  void operator+=(const Losses& other) {
+    cost += other.cost;
+    chi2 += other.chi2;
+  }
 };
 Losses weigh(const Samples& samples, const SurfaceFitOptions& options, std::size_t first, std::size_t count,
              RowBlock& rows) {
@@ -37,8 +50,8 @@ Losses weigh(const Samples& samples, const SurfaceFitOptions& options, std::size
     scale[i] = 0.0;
     if (!counts(samples, first + i)) continue;
     const double F = rows.row[chart_size][i], sigma = options.robust_scale;
-    scale[i] = options.robust ? std::sqrt(tukey_weight(F / sigma)) : 1.0;
-    losses.cost += options.robust ? sigma * sigma * tukey_loss(F / sigma) : F * F;
+    scale[i] = std::sqrt(tukey_weight(F / sigma));
+    losses.cost += sigma * sigma * tukey_loss(F / sigma);
     losses.chi2 += F * F;
   }
   for (auto& row : rows.row) {
@@ -58,7 +71,7 @@ class SurfaceProblem {
         model_(model),
         options_(options),
         prior_(prior),
-        all_count_(!options.robust && samples.all_count(0, samples.size())) {}
+        all_count_(samples.all_count(0, samples.size())) {}
 
   NormalEquations evaluate(const SurfaceState& state) const {
     const SampleRows rows(samples_, model_, state, options_.distance);
@@ -79,10 +92,10 @@ class SurfaceProblem {
     Losses losses;
     for (std::size_t b = part.first; b < part.last; ++b) {
       rows.evaluate(b, block);
-      if (!all_count_) {
-        const Losses of_block = weigh(samples_, options_, b * block_size, rows.count(b), block);
-        losses.cost += of_block.cost;
-        losses.chi2 += of_block.chi2;
+      if (options_.robust) {
+        losses += weigh(samples_, options_, b * block_size, rows.count(b), block);
+      } else if (!all_count_) {
+        set_aside(samples_, b * block_size, rows.count(b), block);
       }
       rows.add(block, b, model_.free_indices(), sums);
     }

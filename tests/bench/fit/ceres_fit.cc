@@ -132,6 +132,7 @@ Solved ceres(Ceres way, const Samples& samples, const Objective& objective, cons
   options.linear_solver_type =
       way == Ceres::normal_cholesky ? ::ceres::DENSE_NORMAL_CHOLESKY : ::ceres::DENSE_QR;
   options.function_tolerance = stop;
+  options.max_num_iterations = most_iterations;
   options.logging_type = ::ceres::SILENT;
   ::ceres::Solver::Summary summary;
   ::ceres::Solve(options, &problem, &summary);

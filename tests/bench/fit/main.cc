@@ -31,20 +31,20 @@ struct Set {
   double evaluations = 0.0;  // mean, of ours
 };
 
-Set observed(std::size_t points, int draws) {
-  Set set{points, patches(points, draws), {}, {}, {}, 0.0};
+Set observed(std::size_t points, std::vector<Observations> all) {
+  Set set{points, std::move(all), {}, {}, {}, 0.0};
   set.samples = samples_of(set.observations);
   return set;
 }
 
-Set make_set(std::size_t points, int draws) {
-  Set set = observed(points, draws);
+Set make_set(std::size_t points, std::vector<Observations> all) {
+  Set set = observed(points, std::move(all));
   for (Samples& samples : set.samples) {
     set.starts.push_back(quadratic_start(samples));
     const SurfaceModel held = fixed_centre(surface_model(ModelKind::paraboloid));
     const SurfaceFit fixed = fit_surface(samples, held, set.starts.back(), {});
     set.calibrated.push_back({Distance::exact, vertex_start(samples, fixed).prior});
-    set.evaluations += ours(samples, {}).evaluations / static_cast<double>(draws);
+    set.evaluations += ours(samples, {}).evaluations / static_cast<double>(set.samples.size());
   }
   return set;
 }
@@ -116,6 +116,22 @@ void add_all(const Set& set) {
   if (set.points <= 1500) by_ceres("Ceres per point", Ceres::per_point, false);
 }
 
+// The paper's objective, without a prior and with one.
+void add_mixed(const Set& set) {
+  const auto objective = [&set](std::size_t i, bool with_prior) {
+    return with_prior ? Objective{Distance::paper, set.calibrated[i].prior} : Objective{};
+  };
+  for (const bool with_prior : {false, true}) {
+    const std::string name = with_prior ? "mixed, prior" : "mixed";
+    add("ours " + name, set,
+        [=, &set](std::size_t i) { return ours(set.samples[i], objective(i, with_prior)); });
+    if (!has_ceres()) continue;
+    add("Ceres " + name, set, [=, &set](std::size_t i) {
+      return ceres(Ceres::normal_cholesky, set.samples[i], objective(i, with_prior), set.starts[i]);
+    });
+  }
+}
+
 void add_for_scaling(const Set& set) {
   const static Objective paper;
   const auto both = SurfaceRequest::elliptic_paraboloid;
@@ -159,6 +175,10 @@ constexpr Line lines[] = {
     {"an unweighted height field by Eigen, no covariance", "height field", "ours"},
     {"surface and its covariance, exact distance and prior (calibrated)", "ours exact", "ours"},
     {"the same by Ceres", "Ceres exact", "ours exact"},
+    {"72 patches of many shapes, mean, the paper's objective", "ours mixed", "ours"},
+    {"the same by Ceres", "Ceres mixed", "ours mixed"},
+    {"72 patches of many shapes, mean, with the prior of the vertex", "ours mixed, prior", "ours"},
+    {"the same by Ceres", "Ceres mixed, prior", "ours mixed, prior"},
     {"whole paper's fit: surface, bound, covariance of all, validation", "whole paper", "ours"},
     {"whole calibrated fit, type named", "whole calibrated", "ours exact"},
     {"the same shared by two threads", "whole calibrated, shared", "whole calibrated"},
@@ -240,16 +260,22 @@ int main(int argc, char** argv) {
   }
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
-  std::vector<Set> sets;
+  std::vector<Set> sets, mixed;
   for (const auto& [points, draws] : {std::pair{150, 16}, {1500, 16}, {15000, 6}}) {
-    sets.push_back(make_set(static_cast<std::size_t>(points), draws));
+    const auto n = static_cast<std::size_t>(points);
+    sets.push_back(make_set(n, patches(n, draws)));
+    if (points <= 1500) mixed.push_back(make_set(n, mixed_patches(n)));
   }
   for (const Set& set : sets) {
     print_accuracy(set);
     add_all(set);
   }
+  for (const Set& set : mixed) add_mixed(set);
   std::vector<Set> large;
-  for (const int points : {150000, 1000000}) large.push_back(observed(static_cast<std::size_t>(points), 1));
+  for (const int points : {150000, 1000000}) {
+    const auto n = static_cast<std::size_t>(points);
+    large.push_back(observed(n, patches(n, 1)));
+  }
   const std::string memory_used = memory(large.back());
   for (const Set& set : large) add_for_scaling(set);
   Collector times;

@@ -8,6 +8,7 @@ SurfaceState quadratic_start(const Samples& samples) { return height_field(sampl
 Solved ours(const Samples& samples, const Objective& objective, double relative_stop) {
   SurfaceFitOptions options;
   options.distance = objective.distance;
+  options.solver.max_iterations = most_iterations;
   options.solver.stop = relative_stop * static_cast<double>(samples.size());
   const SurfaceFit fit = fit_surface(samples, surface_model(ModelKind::paraboloid), quadratic_start(samples),
                                      options, objective.prior);
