@@ -20,7 +20,7 @@ struct Objective {
 };
 
 inline constexpr double stop = 1e-6;  // relative change of chi-square
-inline constexpr int most_iterations = 50;
+inline constexpr int most_iterations = 100;
 
 // Ours, its own start included.
 SurfaceState quadratic_start(const Samples& samples);
