@@ -75,6 +75,7 @@ Result<int> replay_journal(const ReplayRequest& request) {
     outputs.add(request.map, *map);
   }
   std::vector<std::string> notices;
+  if (const auto notice = notice_of_other_results(*document)) notices.push_back(*notice);
   const ExportOptions with_points{.measured = measured_points(*document)};
   for (const auto& [format, file] : *exports) {
     Result<Exported> exported = export_patches(*format, set, with_points);

@@ -238,12 +238,7 @@ Result<void> run(Fit& fit, Document& document, const ApplyOptions& options) {
   const Result<void> fitted = fit_to(patch, *find_scan(document, patch.scan), *region->points, options);
   if (!fitted) return fitted;
   const std::string hash = result_hash(*patch.fit);
-  if (!options.on && !fit.result_sha256.empty() && fit.result_sha256 != hash) {
-    return Error{ErrorCode::refused, "The fit of '" + fit.patch +
-                                         "' gives another result than the recorded one: " + hash +
-                                         " instead of " + fit.result_sha256 +
-                                         "; it was made by another version or on another kind of machine."};
-  }
+  patch.differs_from_record = !options.on && !fit.result_sha256.empty() && fit.result_sha256 != hash;
   fit.result_sha256 = hash;
   return {};
 }

@@ -138,7 +138,7 @@ struct ApplyOptions {
 
 // The document after a command other than Undo and Redo; fills in what the command left open (hashes).
 // Errors: usage (an unknown id, a request that cannot be), unreadable, no_finite_fit; refused where a scan's
-// bytes or a fit's result are not those that the command recorded.
+// bytes are not those that the command recorded.
 Result<Document> apply(const Document& before, Command& command, const ApplyOptions& options = {});
 // Hash of a fit's patch: its type and parameters and covariance, bit for bit.
 std::string result_hash(const FitResult& fit);

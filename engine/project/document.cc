@@ -49,6 +49,20 @@ const PatchEntry* find_patch(const Document& document, const std::string& id) {
   return find(document.patches, id);
 }
 
+std::optional<std::string> notice_of_other_results(const Document& document) {
+  std::string names;
+  int count = 0;
+  for (const PatchEntry& patch : document.patches) {
+    if (!patch.differs_from_record) continue;
+    names += (names.empty() ? "" : ", ") + patch.name;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return (count == 1 ? "The fit of " : "The fits of ") + names + (count == 1 ? " gives" : " give") +
+         " other results than the recorded ones: the journal was made by another version or on another kind of "
+         "machine. The new results stand.";
+}
+
 const MapEntry* find_map(const Document& document, const std::string& id) { return find(document.maps, id); }
 const RobotEntry* find_robot(const Document& document, const std::string& id) {
   return find(document.robots, id);

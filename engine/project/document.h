@@ -50,6 +50,7 @@ struct PatchEntry {
   std::shared_ptr<const std::vector<std::uint32_t>> points;
   bool visible = true;
   std::optional<Colour> colour{};
+  bool differs_from_record = false;  // a replay's fit that gave another result than its journal recorded
 };
 
 // A patch set or map in a frame of its own.
@@ -96,6 +97,8 @@ struct Document {
 const ScanEntry* find_scan(const Document& document, const std::string& id);
 const RegionEntry* find_region(const Document& document, const std::string& id);
 const PatchEntry* find_patch(const Document& document, const std::string& id);
+// One sentence that names the patches that differ from their record; nothing where none does.
+std::optional<std::string> notice_of_other_results(const Document& document);
 const MapEntry* find_map(const Document& document, const std::string& id);
 const RobotEntry* find_robot(const Document& document, const std::string& id);
 bool is_taken(const Document& document, const std::string& id);

@@ -60,7 +60,8 @@ class Session {
 Result<std::vector<Command>> read_journal(std::string_view text, const std::string& name);
 std::string journal_header();
 
-// Replays a journal without writing anything. refused error where a fit's hash differs from the recorded one.
+// Replays a journal without writing anything. Of a fit whose hash differs from the recorded one the new
+// result stands, and the patch says so (differs_from_record).
 Result<Document> replay(const std::filesystem::path& journal, const ApplyOptions& options = {});
 
 }  // namespace patchlab

@@ -100,6 +100,7 @@ void Workbench::open_journal(const std::filesystem::path& file) {
         notices_.push_back(file.filename().string() + " stays as it is; what you do is saved in " +
                            session_.journal().string() + ".");
       }
+      if (const auto notice = notice_of_other_results(session_.document())) notices_.push_back(*notice);
       region_.clear();
       shown_journal_ = options_.keep_journals ? std::filesystem::path() : file;
       after_change();

@@ -170,13 +170,21 @@ TEST_F(Apply, FitsAndRecordsTheHashOfTheResult) {
   EXPECT_TRUE(apply(document, fit, here()).ok()) << "the recorded hash is that of the same fit";
 }
 
-TEST_F(Apply, RefusesAFitThatComesOutOtherwiseThanRecorded) {
+TEST_F(Apply, SaysOfAFitThatItComesOutOtherwiseThanRecorded) {
   const Document document = after({open_boxes(), select_label("region-1", 7)});
   Fit fit = fit_plane("patch-1", "region-1");
   fit.result_sha256 = "9b1d";
-  const Error error = refused(document, fit);
-  EXPECT_EQ(error.code, ErrorCode::refused);
-  EXPECT_THAT(error.message, HasSubstr("instead of 9b1d"));
+  Command command = fit;
+  const Result<Document> fitted = apply(document, command, here());
+  ASSERT_TRUE(fitted.ok()) << fitted.error().message;
+  const PatchEntry& patch = *find_patch(*fitted, "patch-1");
+  EXPECT_TRUE(patch.differs_from_record);
+  EXPECT_EQ(std::get<Fit>(command).result_sha256, result_hash(*patch.fit))
+      << "what stands is recorded from now on";
+  EXPECT_THAT(notice_of_other_results(*fitted).value_or(""),
+              HasSubstr("The fit of patch-1 gives other results"));
+  ASSERT_TRUE(apply(document, command, here()).ok());
+  EXPECT_EQ(notice_of_other_results(*apply(document, command, here())), std::nullopt);
 }
 
 TEST_F(Apply, HashesEveryBitOfAResult) {
