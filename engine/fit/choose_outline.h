@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/fit/fit_patch.h"
-#include "engine/fit/fit_surface.h"
+#include "engine/fit/foot_points.h"
 
 namespace patchlab {
 

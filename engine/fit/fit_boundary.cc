@@ -9,8 +9,6 @@
 namespace patchlab {
 namespace {
 
-using LocalRows = Eigen::Matrix<double, Eigen::Dynamic, joint_size, 0, 11, joint_size>;
-
 Ingredients ingredients(const SurfaceFit& fit, const MomentVector& m, const PatchPlan& plan,
                         const SurfaceFit* plane) {
   Ingredients from;
@@ -42,9 +40,9 @@ void carry_along(Placed& placed, const Ingredients& from) {
 }
 
 // d (d, k, w or tilt, t) / d (everything): a new frame from unit vectors (method M8).
-LocalRows J_local(const Placed& placed, const PatchPlan& plan) {
+JointRows J_local(const Placed& placed, const PatchPlan& plan) {
   const PatchTypeRow& type = *plan.type;
-  LocalRows J = LocalRows::Zero(type.size(), joint_size);
+  JointRows J = JointRows::Zero(type.size(), joint_size);
   for (int i = 0; i < type.boundary_size; ++i) J.row(i) = placed.d[i].derivatives().transpose();
   J.block(type.curvature_at(), 0, type.curvature_size, 2) = plan.curvatures.topRows(type.curvature_size);
   const Vector3d x = value(placed.x), y = value(placed.y), z = value(placed.z);
@@ -81,21 +79,20 @@ BoundaryScale paper_scale(double containment) {
 }
 
 Patch bounded_patch(const Samples& samples, const SurfaceFit& fit, const MomentVector& moments,
-                    const JointMatrix& cov_joint, const PatchPlan& plan, const SurfaceFit* plane) {
+                    const JointCovariance& cov_joint, const PatchPlan& plan, const SurfaceFit* plane) {
   const PatchTypeRow& type = *plan.type;
   const Ingredients from = ingredients(fit, moments, plan, plane);
   Placed placed = place(from, plan);
   carry_along(placed, from);
-  const LocalRows J = J_local(placed, plan);
-  PatchMatrix cov_local = J * cov_joint * J.transpose();
+  const JointRows J = J_local(placed, plan);
+  PatchMatrix cov_local = cov_joint.of(J);
   if (plan.direction) cov_local(type.rotation_at() + 2, type.rotation_at() + 2) += plan.direction->variance;
   Boundary bound{type.boundary, BoundaryVector(type.boundary_size)};
   for (int i = 0; i < type.boundary_size; ++i) bound.d[i] = placed.d[i].value();
   const Eigen::VectorXd k = plan.curvatures.topRows(type.curvature_size) * fit.state.k;
   const Matrix3d axes = (Matrix3d() << value(placed.x), value(placed.y), value(placed.z)).finished();
   const Vector3d c = samples.origin + fit.state.c + fit.state.R * value(placed.c);
-  return make_patch(type, bound, k, fit.state.R * axes, c,
-                    PatchMatrix(0.5 * (cov_local + cov_local.transpose())));
+  return make_patch(type, bound, k, fit.state.R * axes, c, cov_local);
 }
 
 std::optional<Clamped> clamp_to_surface(Patch& patch) {

@@ -50,7 +50,8 @@ struct PatchPlan {
 // The bounded patch of a surface fit, in the frame of the points (the fit is about samples.origin),
 // covariances included. `plane` is step 1's, needed where apex is by_plane.
 Patch bounded_patch(const Samples& samples, const SurfaceFit& fit, const MomentVector& moments,
-                    const JointMatrix& cov_joint, const PatchPlan& plan, const SurfaceFit* plane = nullptr);
+                    const JointCovariance& cov_joint, const PatchPlan& plan,
+                    const SurfaceFit* plane = nullptr);
 
 // A sphere or circular cylinder seen along z_l ends 1/|kappa| from its apex: a longer d is cut to that, its
 // covariance stays. What was cut; nothing where nothing was.

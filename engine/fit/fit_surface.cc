@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/fit/foot_points.h"
 #include "engine/fit/sample_rows.h"
 #include "engine/patch/surface.h"
 
@@ -149,21 +150,7 @@ Starts worth_trying(const Samples& samples, const SurfaceModel& model, const Sta
   return tried;
 }
 
-// Method M3, not yet of sum 1.
-double footprint(const Samples& samples, const SurfaceFit& fit, std::size_t i, const Residual& r) {
-  constexpr double least_cosine = 0.15;
-  if (samples.robust[i] == 0.0) return 0.0;
-  const std::optional<Vector3d>& axis = samples.observations->optical_axis;
-  if (!axis) return 1.0;
-  const Vector3d n = r.g.normalized();
-  const Vector3d from_camera = fit.state.c + fit.state.R * r.x - samples.viewpoint(i);
-  const Vector3d ray = from_camera.normalized();
-  const double depth = axis->dot(from_camera), cos_psi = std::abs(axis->dot(ray));
-  const double facing = std::max(std::abs(n.dot(fit.state.R.transpose() * ray)), least_cosine);
-  return std::max(depth * depth * cos_psi * std::abs(n.z()) / facing, 0.0);
-}
-
-// Weighted sums over foot points.
+// Weighted sums over foot points: 1, x, y, and x^2 + y^2.
 struct Footprint {
   double weight = 0.0, x = 0.0, y = 0.0, squares = 0.0;
 
@@ -174,6 +161,25 @@ struct Footprint {
     squares += other.squares;
   }
 };
+
+Footprint footprint_of_part(const SampleRows& rows, const Footprints& footprints, const Chunk& part) {
+  RowBlock block;
+  alignas(64) double weighted[3][block_size], ones[block_size];
+  std::fill(std::begin(ones), std::end(ones), 1.0);
+  const double *w[] = {weighted[0], weighted[1], weighted[2]}, *by[] = {ones, block.x[0], block.x[1]};
+  MomentTile tile;
+  for (std::size_t b = part.first; b < part.last; ++b) {
+    rows.evaluate(b, block);
+    settle_padding(rows.count(b), block);
+    footprints.weigh(b, block, weighted[0]);
+    for (std::size_t i = 0; i < block_size; ++i) {
+      weighted[1][i] = weighted[0][i] * block.x[0][i];
+      weighted[2][i] = weighted[0][i] * block.x[1][i];
+    }
+    fastest_moment_rows().add(w, 3, by, 3, rows.lanes_of(b), &tile);
+  }
+  return {sum_of(tile, 0), sum_of(tile, 1), sum_of(tile, 2), sum_of(tile, 4) + sum_of(tile, 8)};
+}
 
 }  // namespace
 
@@ -227,41 +233,11 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const 
   return best;
 }
 
-FootPoints foot_points(const Samples& samples, const SurfaceFit& fit) {
-  FootPoints feet;
-  feet.x.resize(samples.size());
-  feet.weight.resize(samples.size());
-  feet.F.resize(samples.size());
-  const SampleRows rows(samples, fit.model, fit.state, Distance::exact);
-  for_each_residual(rows, [&](std::size_t i, const Residual& r) {
-    feet.x[i] = r.x;
-    feet.F[i] = r.F;
-    feet.weight[i] = footprint(samples, fit, i, r);
-  });
-  const double sum = std::accumulate(feet.weight.begin(), feet.weight.end(), 0.0);
-  for (double& weight : feet.weight) weight /= sum;
-  return feet;
-}
-
-FootPoints plain_projection(const Samples& samples, const SurfaceFit& fit) {
-  FootPoints points;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    points.x.push_back(to_local(fit.state, samples.q[i]));
-    points.weight.push_back(samples.robust[i] > 0.0 ? 1.0 : 0.0);
-    sum += points.weight.back();
-  }
-  for (double& weight : points.weight) weight /= sum;
-  return points;
-}
-
 VertexStart vertex_start(const Samples& samples, const SurfaceFit& fixed) {
   const SampleRows rows(samples, fixed.model, fixed.state, Distance::exact);
-  const Footprint all =
-      sum_of_residuals<Footprint>(rows, [&](std::size_t i, const Residual& r, Footprint& part) {
-        const double weight = footprint(samples, fixed, i, r);
-        part += {weight, weight * r.x.x(), weight * r.x.y(), weight * r.x.head<2>().squaredNorm()};
-      });
+  const Footprints footprints(samples, rows, fixed.state);
+  const Footprint all = sum_over_parts<Footprint>(
+      rows.blocks(), [&](const Chunk& part) { return footprint_of_part(rows, footprints, part); });
   const Vector2d centroid = Vector2d(all.x, all.y) / all.weight;
   const double size = 2.0 * std::sqrt(0.5 * std::max(all.squares / all.weight - centroid.squaredNorm(), 0.0));
   const Vector3d kappa = k3(fixed.model, fixed.state.k);

@@ -54,16 +54,6 @@ SurfaceFit fit_surface(const Samples& samples, const SurfaceModel& model, const 
 // Tukey's weight of a residual in standard deviations.
 double tukey_weight(double F);
 
-// Foot points and pixel-footprint weights of all samples on a fitted surface (method M3).
-struct FootPoints {
-  std::vector<Vector3d> x;     // local axes, m
-  std::vector<double> weight;  // sum 1; zero for points of robust weight zero
-  std::vector<double> F;       // signed distances in standard deviations; of foot points only
-};
-FootPoints foot_points(const Samples& samples, const SurfaceFit& fit);
-// The measured points themselves in local axes with equal weights: Eq. (16), step 5 as printed.
-FootPoints plain_projection(const Samples& samples, const SurfaceFit& fit);
-
 // The prior of a model's vertex, and the state to start its free fit from.
 struct VertexStart {
   VertexPrior prior;

@@ -7,11 +7,15 @@
 #include <Eigen/Core>
 
 #include "engine/fit/fit_surface.h"
+#include "engine/fit/foot_points.h"
+#include "engine/patch/patch.h"
 
 namespace patchlab {
 
 inline constexpr int moments_size = 9;
 using MomentVector = Eigen::Matrix<double, moments_size, 1>;
+using MomentMatrix = Eigen::Matrix<double, moments_size, moments_size>;
+using MomentChartMatrix = Eigen::Matrix<double, moments_size, chart_size>;
 
 // Sum of weight_i phi(x_i), phi = (x, y, z, xx, xy, xz, yy, yz, zz).
 MomentVector moments(const std::vector<Vector3d>& points, const std::vector<double>& weights);
@@ -25,6 +29,7 @@ inline constexpr int plane_at = chart_size, plane_size = 3;
 inline constexpr int moments_at = plane_at + plane_size;
 inline constexpr int joint_size = moments_at + moments_size;
 using JointMatrix = Eigen::Matrix<double, joint_size, joint_size>;
+using JointRows = Eigen::Matrix<double, Eigen::Dynamic, joint_size, 0, 11, joint_size>;
 
 enum class Projection {
   foot_points,  // along the covariance to the surface (errata F9)
@@ -44,10 +49,34 @@ struct JointOptions {
 //   d moments / d e_i = w_i Phi_x X_q,i + M d chart / d e_i,   M = sum_i w_i Phi_x X_chart,i
 // D = T B with B_i = (F_p F_q'; F_p F_q' of the plane; w_i Phi_x X_q), so that B Sigma B' is a running sum:
 // no p x 3N matrix is ever held. Prior and sampling add their own columns.
-//
-// `feet` are the points the moments are made of: foot points, or with Projection::plain the local samples
-// themselves.
-JointMatrix joint_covariance(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet,
-                             const JointOptions& options);
+struct JointSums {
+  JointMatrix G = JointMatrix::Zero();              // B Sigma B', with sampling, below the diagonal
+  MomentChartMatrix M = MomentChartMatrix::Zero();  // how the moments move with the surface
+
+  void operator+=(const JointSums& other) {
+    G += other.G;
+    M += other.M;
+  }
+};
+
+// One sample at a time. `feet` are the points the moments are made of: foot points, or with
+// Projection::plain the local samples themselves.
+JointSums joint_sums(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet,
+                     const JointOptions& options);
+
+// T G T' of these sums, prior included.
+class JointCovariance {
+ public:
+  JointCovariance() = default;
+  JointCovariance(const JointSums& sums, const SurfaceFit& fit, const SurfaceFit* plane);
+  // Of what has these derivatives by everything: J T G T' J'.
+  PatchMatrix of(const JointRows& J) const;
+
+ private:
+  JointMatrix G_ = JointMatrix::Zero();
+  ChartMatrix A_inverse_ = ChartMatrix::Zero();
+  MomentChartMatrix M_ = MomentChartMatrix::Zero();
+  Matrix3d plane_inverse_ = Matrix3d::Zero();
+};
 
 }  // namespace patchlab

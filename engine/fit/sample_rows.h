@@ -22,14 +22,18 @@ inline std::size_t blocks_a_part(std::size_t blocks) {  // of even parts, a powe
 }
 
 // The sum of of_part(chunk of blocks), which runs on several threads at once.
-template <class OfPart>
-NormalEquations sum_of_parts(std::size_t blocks, const OfPart& of_part) {
+template <class Sum, class OfPart>
+Sum sum_over_parts(std::size_t blocks, const OfPart& of_part) {
   const std::size_t grain = blocks_a_part(blocks), parts = chunk_count(blocks, grain);
   if (parts == 1) return of_part(Chunk{0, 0, blocks});
-  std::array<NormalEquations, most_parts> of_parts;
+  std::array<Sum, most_parts> of_parts;
   for_each_chunk(blocks, grain, [&](const Chunk& part) { of_parts[part.number] = of_part(part); });
   for (std::size_t part = 1; part < parts; ++part) of_parts[0] += of_parts[part];
   return of_parts[0];
+}
+template <class OfPart>
+NormalEquations sum_of_parts(std::size_t blocks, const OfPart& of_part) {
+  return sum_over_parts<NormalEquations>(blocks, of_part);
 }
 
 // A surface before the samples: what its kernels read of it.
@@ -42,6 +46,8 @@ class SampleRows {
   std::size_t parts() const { return chunk_count(blocks(), blocks_a_part(blocks())); }
   // Samples of a block: block_size but in the last one.
   std::size_t count(std::size_t block) const;
+  std::size_t lanes_of(std::size_t block) const;  // count, in whole lanes
+  const RowSurface& surface() const { return surface_; }
   // Where the kernel finds no foot point, what `residual` says; rows of 0 to the end of the last lanes.
   void evaluate(std::size_t block, RowBlock& rows) const;
   Residual residual(const RowBlock& rows, std::size_t i) const;
@@ -49,8 +55,6 @@ class SampleRows {
   void add(const RowBlock& rows, std::size_t block, std::span<const int> free, RowSums& sums) const;
 
  private:
-  std::size_t lanes_of(std::size_t block) const;  // count, in whole lanes
-
   const Samples& samples_;
   const SurfaceModel& model_;
   const SurfaceState& state_;

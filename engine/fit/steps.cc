@@ -6,11 +6,11 @@
 
 #include "engine/fit/choose_outline.h"
 #include "engine/fit/fit_model.h"
+#include "engine/fit/moment_sums.h"
 #include "engine/fit/paper_steps.h"
 #include "engine/fit/plane_outline.h"
 #include "engine/fit/robust.h"
 #include "engine/fit/robust_fits.h"
-#include "engine/fit/sample_rows.h"
 #include "engine/fit/validate.h"
 
 namespace patchlab {
@@ -93,13 +93,6 @@ void bound(Workbench& work) {
               1e3 * clamped->d, 1e3 * clamped->limit)});
   }
   log_bound(work);
-}
-
-std::vector<double> paper_residuals(const Workbench& work) {
-  const SampleRows rows(work.samples, work.surface.model, work.surface.state, Distance::paper);
-  std::vector<double> residuals(work.samples.size());
-  for_each_residual(rows, [&](std::size_t i, const Residual& r) { residuals[i] = r.F; });
-  return residuals;
 }
 
 // Eq. (31): the quad of a rectangle.
@@ -226,14 +219,13 @@ void choose_boundary(Workbench& work) {
 void project_points(Workbench& work) {
   JointOptions options;
   if (by_paper(work)) {
-    work.feet = plain_projection(work.samples, work.surface);
     options = {Distance::paper, Projection::plain, false,
                work.plane_fit.A.size() > 0 ? &work.plane_fit : nullptr};
-  } else {
-    work.feet = foot_points(work.samples, work.surface);
   }
-  work.moments = moments(work.feet.x, work.feet.weight);
-  work.cov_joint = joint_covariance(work.samples, work.surface, work.feet, options);
+  Projected projected = project(work.samples, work.surface, options);
+  work.feet = std::move(projected.feet);
+  work.moments = projected.moments;
+  work.cov_joint = JointCovariance(projected.sums, work.surface, options.plane);
   work.log.push_back(line("5. %zu points projected", work.samples.size()));
 }
 
@@ -286,7 +278,7 @@ Result<FitResult> conclude(Workbench& work) {
   report.warnings = work.notes;
   report.iterations = work.surface.iterations;
   report.converged = work.surface.converged;
-  report.residuals = by_paper(work) ? paper_residuals(work) : std::move(work.feet.F);
+  report.residuals = std::move(work.feet.F);
   for (std::size_t i = 0; i < work.samples.size(); ++i) {
     if (work.samples.robust[i] == 0.0) {
       report.outliers.push_back(static_cast<std::uint32_t>(i));

@@ -35,7 +35,7 @@ struct Workbench {
   std::vector<OutlineCandidate> outlines;
   FootPoints feet;  // step 5
   MomentVector moments = MomentVector::Zero();
-  JointMatrix cov_joint = JointMatrix::Zero();
+  JointCovariance cov_joint;
   Patch patch;                   // steps 6 to 9
   std::vector<std::string> log;  // each step in words, with its numbers
 };

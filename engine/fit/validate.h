@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/fit/fit_patch.h"
-#include "engine/fit/fit_surface.h"
+#include "engine/fit/foot_points.h"
 
 namespace patchlab {
 
