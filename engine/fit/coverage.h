@@ -1,4 +1,4 @@
-// How the points of a fit lie on the bounded patch: whether they cover it, and how far they are off it.
+// Whether the points of a fit cover its bounded patch.
 #pragma once
 
 #include <vector>
@@ -12,12 +12,7 @@ namespace patchlab {
 // least half of what its inside area leads to expect, and those outside at most half of what its outside area
 // would; a point is outside where it is beyond the outline by two standard deviations of it. Twelve points a
 // cell, 50 cells at most. In [0, 1].
-double coverage(const Patch& patch, const std::vector<Vector3d>& feet_patch,
+double coverage(const Patch& patch, const std::vector<Vector2d>& feet_patch,
                 const std::vector<double>& weights);
-
-// Root of the mean squared distance of the points to the bounded patch, m: to their foot on the surface, or
-// to the outline where that foot is beyond it. Points of weight 0 do not count.
-double distance_rms(const Patch& patch, const std::vector<Vector3d>& points_patch,
-                    const std::vector<double>& weights);
 
 }  // namespace patchlab

@@ -6,6 +6,7 @@
 
 #include "engine/base/chi_square.h"
 #include "engine/fit/coverage.h"
+#include "engine/fit/patch_distance.h"
 
 namespace patchlab {
 namespace {
@@ -18,9 +19,9 @@ std::string text(const char* format, double a, double b = 0.0) {
 
 double depth_sigma(const Samples& samples, const Patch& patch) {
   const Vector3d z = axes(patch).col(2);
-  double sum = 0.0;
-  for (const Matrix3d& cov : samples.cov) sum += z.dot(cov * z);
-  return std::sqrt(sum / static_cast<double>(samples.size()));
+  Matrix3d sum = Matrix3d::Zero();
+  for (const Matrix3d& cov : samples.cov) sum += cov;
+  return std::sqrt(z.dot(sum * z) / static_cast<double>(samples.size()));
 }
 
 // |kappa| d along each axis.
@@ -199,23 +200,24 @@ std::string verdict(const FitReport& report) {
   return "Agrees with the noise model.";
 }
 
+// On the xy plane of the patch.
+std::vector<Vector2d> feet_on(const Patch& patch, const Samples& samples, const SurfaceFit& fit,
+                              const FootPoints& feet) {
+  const Matrix3d patch_from_world = axes(patch).transpose();
+  const Eigen::Matrix<double, 2, 3> turn = (patch_from_world * fit.state.R).topRows<2>();
+  const Vector2d shift = (patch_from_world * (samples.origin + fit.state.c - centre(patch))).head<2>();
+  std::vector<Vector2d> on_patch(feet.x.size());
+  for (std::size_t i = 0; i < on_patch.size(); ++i) on_patch[i] = shift + turn * feet.x[i];
+  return on_patch;
+}
+
 }  // namespace
 
 void validate_fit(const Samples& samples, const SurfaceFit& fit, const FootPoints& feet, const Patch& patch,
                   const FitOptions& options, FitReport& report) {
   report.p_value = report.dof > 0 ? chi_square_p_value(report.chi2, report.dof) : 1.0;
-  std::vector<Vector3d> points, feet_patch;
-  points.reserve(samples.size());
-  feet_patch.reserve(samples.size());
-  const Matrix3d patch_from_world = axes(patch).transpose(), patch_from_fit = patch_from_world * fit.state.R;
-  const Vector3d to_fit = patch_from_world * (samples.origin + fit.state.c - centre(patch));
-  const Vector3d to_samples = patch_from_world * (samples.origin - centre(patch));
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    points.push_back(to_samples + patch_from_world * samples.q[i]);
-    feet_patch.push_back(to_fit + patch_from_fit * feet.x[i]);
-  }
-  report.residual_rms = distance_rms(patch, points, samples.robust);
-  report.coverage = coverage(patch, feet_patch, feet.weight);
+  report.residual_rms = distance_rms(patch, samples);
+  report.coverage = coverage(patch, feet_on(patch, samples, fit, feet), feet.weight);
   check_type(patch, options.surface, report);
   check_limits(patch, options.limits, report);
   warn_overstated_noise(report);

@@ -17,16 +17,16 @@ Patch plate(double d_x, double d_y) {
 }
 
 // Evenly drawn over x in [from, to] and y in [-half, half].
-std::vector<Vector3d> strewn(Random& random, std::size_t points, double from, double to, double half) {
-  std::vector<Vector3d> out;
+std::vector<Vector2d> strewn(Random& random, std::size_t points, double from, double to, double half) {
+  std::vector<Vector2d> out;
   for (std::size_t i = 0; i < points; ++i) {
     const double x = random.uniform(from, to), y = random.uniform(-half, half);
-    out.emplace_back(x, y, 0.0);
+    out.emplace_back(x, y);
   }
   return out;
 }
 
-double coverage_by(const Patch& patch, const std::vector<Vector3d>& feet) {
+double coverage_by(const Patch& patch, const std::vector<Vector2d>& feet) {
   return coverage(patch, feet, std::vector<double>(feet.size(), 1.0));
 }
 
@@ -42,7 +42,7 @@ TEST(Coverage, IsTheShareOfThePatchThatPointsLieOn) {
 
 TEST(Coverage, CountsWhatAnOutlineWithoutWidthWouldTakeForeverToCount) {
   SeededRandom random;
-  const std::vector<Vector3d> feet = strewn(random, 300, -0.1, 0.1, 0.1);
+  const std::vector<Vector2d> feet = strewn(random, 300, -0.1, 0.1, 0.1);
   for (const double length : {1e3, 1e9, 1e300}) {
     const double covered = coverage_by(plate(length, 1e-12), feet);
     EXPECT_GE(covered, 0.0) << length;
