@@ -23,6 +23,7 @@ constexpr Verb map_verbs[] = {
     {"robot", "Put the patches of a robot where its joints put them", set_up_map_robot},
     {"merge", "Find what two patch sets both see, and fuse it", set_up_map_merge},
     {"query", "Ask how far, how tilted, how well a foot fits, with sigmas", set_up_map_query},
+    {"touch", "Measure a patch anew by a foot or a point in contact", set_up_map_touch},
 };
 
 struct Choice {

@@ -1,9 +1,9 @@
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "engine/base/chi_square.h"
-#include "engine/base/file.h"
-#include "engine/cli/chain_file.h"
+#include "engine/cli/map_files.h"
 #include "engine/cli/output.h"
 #include "engine/cli/verb.h"
 #include "engine/io/map_set.h"
@@ -12,34 +12,11 @@ namespace patchlab {
 namespace {
 
 struct MergeRequest {
-  std::string a, b, pose;
+  std::string a, b, pose, when;
   double gate = 0.95;
   std::string output = "-";
   bool json = false;
 };
-
-std::string called(const std::string& file) { return file == "-" ? "standard input" : file; }
-
-Result<PatchSet> read_set(const std::string& file) {
-  const Result<Bytes> bytes = read_file(file);
-  if (!bytes) return bytes.error();
-  return read_patch_set(as_text(*bytes), called(file));
-}
-
-// Where B stands in A: by the file, or both in one frame.
-Result<UncertainPose> a_from_b(const MergeRequest& request, const PatchMap& a, const PatchMap& b) {
-  if (request.pose.empty()) {
-    if (a.frame == b.frame || a.patches.empty() || b.patches.empty()) return UncertainPose{};
-    return Error{ErrorCode::usage, called(request.b) + ": its patches stand in frame \"" + b.frame +
-                                       "\", those of " + called(request.a) + " in \"" + a.frame +
-                                       "\"; give the pose between them with --pose."};
-  }
-  const Result<Bytes> bytes = read_file(request.pose);
-  if (!bytes) return bytes.error();
-  const Result<Chain> chain = parse_pose(as_text(*bytes), called(request.pose));
-  if (!chain) return chain.error();
-  return compose(*chain);
-}
 
 std::string sentence(const Match& match, const PatchMap& map, const View& view) {
   char numbers[120];
@@ -69,13 +46,14 @@ Result<int> merge_sets(const MergeRequest& request) {
   const Result<PatchMap> a = map_of(*set_a, called(request.a)), b = map_of(*set_b, called(request.b));
   if (!a) return a.error();
   if (!b) return b.error();
-  const Result<UncertainPose> pose = a_from_b(request, *a, *b);
+  const Result<UncertainPose> pose = pose_between(request.pose, {request.a, *a}, {request.b, *b});
   if (!pose) return pose.error();
   PatchMap map = *a;
   if (map.frame.empty()) map.frame = b->frame;
   const Result<void> unseen = check_unseen(map, *set_b, called(request.a), called(request.b));
   if (!unseen) return unseen.error();
-  const View view = view_of(*set_b, *pose);
+  View view = view_of(*set_b, *pose);
+  view.when = request.when;
   const Association found = associate(patches_of(map), view.patches, *pose, {.gate = request.gate});
   report(found, map, view);
   PatchSet merged = set_of(merge(map, view, found.matches).map, *set_a, *set_b);
@@ -99,6 +77,8 @@ Action set_up_map_merge(CLI::App& app) {
   app.add_option("--gate", request->gate, "probability that no true pair is turned away")
       ->check(CLI::Range(1e-6, 1.0 - 1e-6))
       ->capture_default_str();
+  app.add_option("--when", request->when,
+                 "kept with what B adds: when it was seen, 2026-11-23T14:02:11Z say");
   app.add_option("-o,--output", request->output, "where to write the map; standard output without it");
   app.add_flag("--json", request->json, "print JSON, which it does anyway");
   return [request] { return merge_sets(*request); };

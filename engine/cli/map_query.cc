@@ -33,7 +33,8 @@ struct Answer {
 // Every patch of the files, by its id.
 struct Asked {
   std::vector<PatchRecord> records;
-  std::vector<std::string> files;  // where each stands
+  std::vector<std::string> files;    // where each stands
+  std::vector<std::string> sharing;  // files whose patches share errors
 };
 
 Result<Asked> read_all(const std::vector<std::string>& files) {
@@ -44,6 +45,7 @@ Result<Asked> read_all(const std::vector<std::string>& files) {
     const std::string called = file == "-" ? "standard input" : file;
     const Result<PatchSet> set = read_patch_set(as_text(*bytes), called);
     if (!set) return set.error();
+    if (set->unknown.contains("correlations")) asked.sharing.push_back(called);
     for (const PatchRecord& record : set->patches) {
       asked.records.push_back(record);
       asked.files.push_back(called);
@@ -170,6 +172,11 @@ Result<int> query_map(const QueryRequest& request) {
                    {!request.near.empty(), ask_near}};
   const Result<Asked> asked = read_all(request.files);
   if (!asked) return asked.error();
+  if (!request.between.empty() || !request.foot.empty()) {
+    for (const std::string& file : asked->sharing)
+      say(file +
+          ": its patches share errors, of joints or a pose; sigmas between two of them count each alone.");
+  }
   std::string words;
   nlohmann::ordered_json answers = nlohmann::ordered_json::array();
   for (const auto& question : questions) {

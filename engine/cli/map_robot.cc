@@ -23,6 +23,11 @@ auto read(const std::string& file, const Read& reader) -> decltype(reader(std::s
   return reader(as_text(*bytes), file == "-" ? "standard input" : file);
 }
 
+// An error of what a file says.
+Error in_file(const std::string& file, const Error& error) {
+  return {error.code, (file == "-" ? "standard input" : file) + ": " + error.message};
+}
+
 // A frame of the output: a link, or the frame that the base is fixed in.
 bool names_base(const RobotRequest& request, const JointFile& joints) {
   return request.frame.empty() || request.frame == joints.base_in;
@@ -36,10 +41,11 @@ Result<PatchSet> patches_of_robot(const RobotRequest& request) {
   const auto patches = read(request.patches, read_robot_patches);
   if (!patches) return patches.error();
   const auto posed = PosedRobot::make(*robot, joints->values, joints->tolerance);
-  if (!posed) return posed.error();
+  if (!posed) return in_file(request.joints, posed.error());
   const std::string to = names_base(request, *joints) ? robot->base : request.frame;
+  if (const auto frame = posed->pose(to, robot->base); !frame) return in_file("--frame", frame.error());
   const auto placed = robot_patches_in(*posed, *patches, to);
-  if (!placed) return placed.error();
+  if (!placed) return in_file(request.patches, placed.error());
   PatchSet set;
   if (placed->size() > 1) state_shared_errors(set);  // by the joints between them
   for (std::size_t i = 0; i < placed->size(); ++i) {

@@ -24,6 +24,7 @@ Action set_up_map_chain(CLI::App& app);
 Action set_up_map_robot(CLI::App& app);
 Action set_up_map_merge(CLI::App& app);
 Action set_up_map_query(CLI::App& app);
+Action set_up_map_touch(CLI::App& app);
 Action set_up_export(CLI::App& app);
 Action set_up_replay(CLI::App& app);
 Action set_up_help(CLI::App& app);

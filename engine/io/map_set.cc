@@ -14,6 +14,7 @@ constexpr const char* member = "observations";
 nlohmann::json observation_json(const Observation& seen) {
   nlohmann::ordered_json out = {
       {"source", seen.source}, {"patch", seen.id}, {"chi2", seen.chi2}, {"dof", seen.dof}};
+  if (!seen.when.empty()) out["when"] = seen.when;
   append_patch(out, seen.patch);
   return out;
 }
@@ -24,6 +25,7 @@ Observation observation_from_json(const JsonPlace& place) {
   seen.id = place["patch"].text();
   seen.chi2 = place["chi2"].number();
   seen.dof = static_cast<int>(place["dof"].whole_number(1000));
+  if (const auto when = place.find("when")) seen.when = when->text();
   seen.patch = patch_from_json(place);
   return seen;
 }
@@ -35,6 +37,7 @@ std::vector<Observation> observations_of(const PatchRecord& record, const std::s
   const JsonPlace list =
       JsonPlace(record.unknown[member], name, error).called("observations of patch \"" + record.id + "\"");
   for (const JsonPlace& place : list.items()) out.push_back(observation_from_json(place));
+  if (out.empty() && list.ok()) list.fail("are none; a patch of a map was seen once at least");
   return out;
 }
 

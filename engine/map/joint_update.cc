@@ -19,15 +19,27 @@ Innovation innovation(const Measurement& m, const SharedError& delta) {
   return {m.y - m.G * delta.mean, Eigen::LDLT<MatrixXd>(symmetric(m.H * m.P * m.H.transpose() + m.R))};
 }
 
+MatrixXd gain(const Measurement& m, const PatchMatrix& P, const Eigen::LDLT<MatrixXd>& S) {
+  return S.solve(m.H * P).transpose();
+}
+
+MatrixXd gain_taken(const Measurement& m, const Eigen::LDLT<MatrixXd>& S) {
+  const PatchMatrix& P = m.P_gain.size() == 0 ? m.P : m.P_gain;
+  if (m.R_gain.size() == 0) return gain(m, P, S);
+  return gain(m, P, Eigen::LDLT<MatrixXd>(symmetric(m.H * m.P * m.H.transpose() + m.R_gain)));
+}
+
 Updated update_one(const Measurement& m, const SharedError& delta, const Eigen::LDLT<MatrixXd>& S) {
   const Eigen::VectorXd y = m.y - m.G * delta.mean;
-  const MatrixXd K = S.solve(m.H * m.P).transpose();
+  const MatrixXd K_best = gain(m, m.P, S), K = gain_taken(m, S);
   const MatrixXd L = MatrixXd::Identity(m.P.rows(), m.P.cols()) - K * m.H;
+  // With another gain than the best, what is left of x errs together with delta.
+  const MatrixXd off = (K_best - K) * m.G;
   Updated out;
-  out.C = m.T - K * m.G;
+  out.C = m.T - K_best * m.G;
   out.x = K * y + m.T * delta.mean;
   out.P = symmetric(L * m.P * L.transpose() + K * m.R * K.transpose() +  // Joseph's form
-                    out.C * delta.covariance * out.C.transpose());
+                    out.C * delta.covariance * out.C.transpose() - off * delta.covariance * off.transpose());
   out.chi2 = y.dot(S.solve(y));
   return out;
 }

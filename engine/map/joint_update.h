@@ -3,7 +3,8 @@
 // Errors: x_i of patch i in its local chart (independent, covariance P_i), and delta of the shared pose's (r,
 // t). Each measurement says y_i = H_i x_i + G_i delta + noise of covariance R_i. All are solved together:
 // delta is known from all of them, and the covariance of every patch holds what is left of its error. Patches
-// are correlated through delta afterwards: the covariance of patches i and j is C_i cov_delta C_j'.
+// are correlated through delta afterwards: the covariance of patches i and j is C_i cov_delta C_j' (less the
+// square of what P_gain and R_gain take from their gains).
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +21,10 @@ struct Measurement {
   Eigen::Matrix<double, Eigen::Dynamic, 6> G;
   Eigen::MatrixXd R;
   Eigen::Matrix<double, Eigen::Dynamic, 6> T;  // the patch stands in the map as x + T delta
+  // What the gain takes P and R for, where that is another: less than P where this is not to teach some of x,
+  // R as engine/map/weigh.h says. P and R stay what the errors are.
+  PatchMatrix P_gain = {};
+  Eigen::MatrixXd R_gain = {};
 };
 
 struct SharedError {

@@ -104,23 +104,37 @@ void reduce(Measurement& m, const MatrixXd& rows) {
   m.R = rows * m.R * rows.transpose();
 }
 
-// Of the rows of a form with the patch's apex where it slides along its surface (the directions that the type
-// has beyond what its 2-jet shows), as far as the prior of method M4 has its share in what is known of it.
-MatrixXd cov_form_vertex(const Patch& patch, const MatrixXd& J_local) {
+// Of a patch whose apex slides along its surface (in the directions that the type has beyond what its 2-jet
+// shows), as far as the prior of method M4 has its share in what is known of the apex: its places in the
+// chart, and those columns of the covariance.
+struct VertexByPrior {
+  std::vector<int> at;
+  MatrixXd columns;
+};
+VertexByPrior vertex_by_prior(const Patch& patch) {
   const SurfaceDof dof = surface_dof(*patch.type);
   const PatchMatrix cov = cov_local_or_zero(patch);
   const double var_prior = 0.5 * extent(boundary(patch)).squaredNorm() * prior_deviation * prior_deviation;
   const int t_z = patch.type->position_at() + 2;
-  std::vector<int> columns;
+  VertexByPrior vertex;
   for (int t = t_z - (dof.all - dof.jet); t < t_z; ++t) {
-    if (cov(t, t) > least_share * var_prior) columns.push_back(t);
+    if (cov(t, t) > least_share * var_prior) vertex.at.push_back(t);
   }
-  return J_local * MatrixXd(cov(Eigen::all, columns));
+  vertex.columns = cov(Eigen::all, vertex.at);
+  return vertex;
+}
+
+// P of a patch were its vertex known.
+PatchMatrix at_vertex(const Patch& patch, const PatchMatrix& P) {
+  const std::vector<int> at = vertex_by_prior(patch).at;
+  if (at.empty()) return P;
+  const MatrixXd columns = P(Eigen::all, at), square = P(at, at);
+  return P - columns * square.ldlt().solve(columns.transpose());
 }
 
 PairMeasurement by_quadric(const Pair& pair) {
   const SurfaceQuadric a = surface_quadric(pair.a, pair.plane), b = surface_quadric(pair.b, pair.plane);
-  PairMeasurement out{true, about(pair.a, pair), {}};
+  PairMeasurement out{true, true, about(pair.a, pair), {}, {}};
   Measurement& m = out.measurement;
   state(m, true, a, b, J_wt_pose(pair.a_from_b, pair.b));
   m.R = b.J_local * cov_local_or_zero(pair.b) * b.J_local.transpose();
@@ -133,21 +147,23 @@ PairMeasurement by_quadric(const Pair& pair) {
   const MatrixXd rows =
       solver.eigenvectors().rightCols(surface_dof(*pair.a.type).all).transpose() * scale.asDiagonal();
   reduce(m, rows);
-  out.cov_y_vertex = rows * cov_form_vertex(pair.b, b.J_local);
+  out.cov_y_vertex = rows * (b.J_local * vertex_by_prior(pair.b).columns);
+  out.P_at_vertex = at_vertex(pair.a, m.P);
   return out;
 }
 
 PairMeasurement by_jet(const Pair& pair, const JetPair& jets) {
   const bool stands_a = pair.a.type->curvature_size >= pair.b.type->curvature_size;
   const Patch &stands = stands_a ? pair.a : pair.b, &other = stands_a ? pair.b : pair.a;
-  PairMeasurement out{stands_a, about(stands, pair), {}};
+  PairMeasurement out{stands_a, false, about(stands, pair), {}, {}};
   Measurement& m = out.measurement;
   state(m, stands_a, jets.a, jets.b, J_wt_pose(pair.a_from_b, pair.b));
   const SurfaceJet& jet = stands_a ? jets.b : jets.a;
   m.R = cov_jet(other, jet) + cov_unseen_at(other, pair.plane) + cov_unseen_at(stands, pair.plane);
   const JetScale scale = jet_scale(size_of(stands));
   reduce(m, scale.asDiagonal());
-  out.cov_y_vertex = scale.asDiagonal() * cov_form_vertex(other, jet.J_local);
+  out.cov_y_vertex = scale.asDiagonal() * (jet.J_local * vertex_by_prior(other).columns);
+  out.P_at_vertex = at_vertex(stands, m.P);
   return out;
 }
 
@@ -188,6 +204,7 @@ Measurement apart_from_vertex(const PairMeasurement& pair) {
   if (pair.cov_y_vertex.cols() == 0) return m;
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(pair.cov_y_vertex);
   const MatrixXd Q = qr.householderQ();
+  m.P_gain = pair.P_at_vertex;
   reduce(m, Q.rightCols(Q.cols() - qr.rank()).transpose());
   return m;
 }

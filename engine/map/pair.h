@@ -32,16 +32,19 @@ std::optional<PairDistance> pair_distance(const Pair& pair, const Matrix6d& cov_
 // missing.
 struct PairMeasurement {
   bool stands_a = true;  // the patch that is updated: a, or else b
+  bool whole = true;     // of one type: all of the surface
   Measurement measurement;
   Eigen::MatrixXd cov_y_vertex;  // of y and where the other patch's vertex is by its prior; often no columns
+  PatchMatrix P_at_vertex;       // what P is where the vertex of the patch that stands is known
 };
 std::optional<PairMeasurement> measure_pair(const Pair& pair);
 
 // What of it is new to a surface that stands. Points hardly tell where the vertex of a paraboloid is: each
 // fit puts it where its own patch is centred (method M4). Sights of one place err alike in that, so it may
 // count once only. What is left are the combinations of y that the other patch's vertex does not reach: all
-// that its points said, but for the little that they said of the vertex. A vertex that is known far better
-// than that prior says is not by the prior, and counts in full.
+// that its points said, but for the little that they said of the vertex. Nor does the surface that stands
+// learn where its own vertex is, for where two err alike it tells nothing that they agree. A vertex that is
+// known far better than that prior says is not by the prior, and counts in full.
 Measurement apart_from_vertex(const PairMeasurement& pair);
 
 }  // namespace patchlab

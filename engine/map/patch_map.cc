@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "engine/map/common_form.h"
 #include "engine/map/correct.h"
 #include "engine/map/enclosing.h"
+#include "engine/map/weigh.h"
 
 namespace patchlab {
 namespace {
@@ -34,7 +36,10 @@ Linearised linearised(const PatchMap& map, const std::vector<Patch>& view, const
     if (!pair) continue;
     out.planes.push_back(plane);
     out.stands.push_back(pair->stands_a ? a : b);
-    out.measurements.push_back(apart_from_vertex(*pair));
+    Measurement measurement = apart_from_vertex(*pair);
+    const auto sights = static_cast<int>(map.patches[match.a].observations.size());
+    if (pair->whole) measurement.R_gain = levelled(measurement, std::max(1, sights));
+    out.measurements.push_back(std::move(measurement));
     out.matches.push_back(&match);
   }
   return out;
@@ -96,8 +101,8 @@ Merged merge(const PatchMap& map, const View& view, std::span<const Match> match
   std::set<std::size_t> fused;
   for (std::size_t i = 0; i < at.matches.size(); ++i) {
     const Match& match = *at.matches[i];
-    const Observation seen{view.sources[match.b], view.ids[match.b], facing(match, standing[match.b]),
-                           match.distance.chi2, match.distance.dof};
+    const Observation seen{view.sources[match.b], view.ids[match.b],  facing(match, standing[match.b]),
+                           match.distance.chi2,   match.distance.dof, view.when};
     const Updated& step = update.patches[i];
     fuse(out.map.patches[match.a], corrected(at.stands[i], step.x, step.P, at.planes[i]), seen);
     out.C[match.a] = update.patches[i].C;
@@ -109,7 +114,7 @@ Merged merge(const PatchMap& map, const View& view, std::span<const Match> match
     out.C.push_back(chart_by_pose(out.map_from_view.pose, added));
     out.map.patches.push_back({free_id(out.map, view.sources[j], view.ids[j]),
                                added,
-                               {{view.sources[j], view.ids[j], standing[j], 0.0, 0}}});
+                               {{view.sources[j], view.ids[j], standing[j], 0.0, 0, view.when}}});
   }
   return out;
 }

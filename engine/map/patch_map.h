@@ -18,6 +18,7 @@ struct Observation {
   Patch patch;         // with its own covariance
   double chi2 = 0.0;   // squared distance to the map's patch; zero for the first
   int dof = 0;
+  std::string when = {};  // as the view says
 };
 
 struct MapPatch {
@@ -36,6 +37,7 @@ struct View {
   std::vector<std::string> sources, ids;  // of each patch: its scan or file, its id there
   std::vector<Patch> patches;
   UncertainPose map_from_view;
+  std::string when = {};  // it was seen: a date and time, say; empty where nobody says
 };
 
 struct Merged {

@@ -22,12 +22,13 @@ Result<void> check_values(const Robot& robot, const JointValues& values) {
   for (const auto& [name, value] : values) {
     const RobotJoint* joint = joint_named(robot, name);
     if (joint == nullptr)
-      return robot_error("There is no joint \"" + name + "\" in robot \"" + robot.name + "\".");
+      return robot_error("There is no joint \"" + name + "\" in robot \"" + robot.name +
+                         "\"; leave it out, or correct its name.");
     if (joint->kind == JointKind::fixed)
-      return robot_error("Joint \"" + name + "\" is fixed and takes no value.");
+      return robot_error("Joint \"" + name + "\" is fixed and takes no value; leave it out.");
     if (joint->driver != name)
       return robot_error("Joint \"" + name + "\" mimics \"" + joint->driver +
-                         "\" and takes no value of its own.");
+                         "\" and takes no value of its own; leave it out.");
     if (!std::isfinite(value.value) || !std::isfinite(value.sigma) || value.sigma < 0.0) {
       return robot_error("The value of joint \"" + name +
                          "\" must be finite, and its sigma finite and not negative.");
@@ -54,7 +55,8 @@ Result<PosedRobot> PosedRobot::make(const Robot& robot, const JointValues& value
 
 Result<std::vector<const RobotJoint*>> PosedRobot::to_base(const std::string& link) const {
   if (std::ranges::find(robot_.links, link) == robot_.links.end()) {
-    return robot_error("There is no link \"" + link + "\" in robot \"" + robot_.name + "\".");
+    return robot_error("There is no link \"" + link + "\" in robot \"" + robot_.name +
+                       "\"; correct its name.");
   }
   std::vector<const RobotJoint*> out;
   for (std::string at = link; at != robot_.base; at = out.back()->parent) {

@@ -64,10 +64,11 @@ Result<MergeProposal> propose_merge(const Document& document, const std::string&
 
 Result<void> run(Merge& merge, Document& document, const ApplyOptions&) {
   if (merge.map.empty()) merge.map = free_id(document, "map");
-  const Result<MergeProposal> proposal = propose_merge(document, merge.map, merge.view, merge.gate);
+  Result<MergeProposal> proposal = propose_merge(document, merge.map, merge.view, merge.gate);
   if (!proposal) return proposal.error();
   const Result<std::vector<Match>> matches = accepted(*proposal, merge);
   if (!matches) return matches.error();
+  proposal->view.when = merge.when;
   const Merged merged = patchlab::merge(proposal->map, proposal->view, *matches);
   PatchSet set = set_of(merged.map, proposal->set, proposal->added);
   if (!proposal->view.map_from_view.covariance.isZero(0.0)) state_shared_errors(set);

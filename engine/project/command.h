@@ -93,6 +93,7 @@ struct Merge {
   std::string map, view;
   double gate = 0.95;                                    // as AssociateOptions
   std::vector<std::array<std::string, 2>> refused = {};  // ids of patches: map, view
+  std::string when = {};                                 // kept with the observations; may be empty
 };
 struct Rename {
   std::string target, name;  // an id

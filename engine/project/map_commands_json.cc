@@ -114,16 +114,18 @@ ordered_json write(const Place& put) {
 }
 
 void read(const JsonPlace& place, Merge& merge) {
-  place.only({"do", "map", "view", "gate", "refused"});
+  place.only({"do", "map", "view", "gate", "refused", "when"});
   merge.map = place["map"].text();
   merge.view = place["view"].text();
   may(place, "gate", merge.gate, read_gate);
   may(place, "refused", merge.refused, read_pairs);
+  may(place, "when", merge.when, &JsonPlace::text);
 }
 
 ordered_json write(const Merge& merge) {
   ordered_json object = {{"do", "merge"}, {"map", merge.map}, {"view", merge.view}, {"gate", merge.gate}};
   if (!merge.refused.empty()) object["refused"] = merge.refused;
+  if (!merge.when.empty()) object["when"] = merge.when;
   return object;
 }
 

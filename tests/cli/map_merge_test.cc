@@ -1,5 +1,6 @@
 #include "engine/io/patch_set.h"
 #include "tests/cli/program.h"
+#include "tests/support/json_schema.h"
 #include "tests/support/sample_patches.h"
 
 namespace patchlab {
@@ -79,6 +80,32 @@ TEST_F(MapMerge, GoesOnWithAMapThatItWrote) {
   ASSERT_EQ(second.status, 0) << second.err;
   EXPECT_EQ(read_patch_set(second.out, "map")->patches[0].unknown["observations"].size(), 3u);
   EXPECT_EQ(patchlab("map merge " + map + " " + c).out, second.out);
+}
+
+TEST_F(MapMerge, KeepsWhenASightWas) {
+  const std::string a = set_file("a.json", row_of_patches("map", {}, 0, 2)),
+                    b = set_file("b.json", row_of_patches("map", {}, 0, 2, "bb")),
+                    c = set_file("c.json", row_of_patches("map", {}, 0, 2, "cc"));
+  const Outcome first = patchlab("map merge " + a + " " + b + " --when 2026-11-23T14:02:11Z");
+  const Outcome second = patchlab("map merge " + write("map.json", first.out) + " " + c);
+  ASSERT_EQ(second.status, 0) << second.err;
+  EXPECT_EQ(test::complaints("patch_set", json(second.out)), "");
+  const nlohmann::json seen = json(second.out)["patches"][0]["observations"];
+  ASSERT_EQ(seen.size(), 3u);
+  EXPECT_FALSE(seen[0].contains("when")) << "nobody said";
+  EXPECT_EQ(seen[1]["when"], "2026-11-23T14:02:11Z");
+  EXPECT_FALSE(seen[2].contains("when"));
+}
+
+TEST_F(MapMerge, RefusesAMapThatSawNothing) {
+  const std::string a = set_file("a.json", row_of_patches("map", {}, 0, 1)),
+                    b = set_file("b.json", row_of_patches("map", {}, 0, 1, "bb"));
+  nlohmann::json map = json(patchlab("map merge " + a + " " + b).out);
+  map["patches"][0]["observations"] = nlohmann::json::array();
+  const Outcome outcome = patchlab("map merge " + write("map.json", map.dump()) + " " + b);
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_TRUE(outcome.one_sentence()) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("map.json: observations of patch \"patch-0\" are none"));
 }
 
 TEST_F(MapMerge, CountsASightOnce) {

@@ -74,6 +74,17 @@ TEST_F(MapQuery, SaysItInWordsToo) {
   EXPECT_THAT(outcome.out, HasSubstr("slope: tilt 11.459 +- "));
 }
 
+TEST_F(MapQuery, SaysWherePatchesShareErrors) {
+  PatchSet legs;
+  legs.patches = {plate("left", "body", {0.0, 0.1, 0.0}, 0.0), plate("right", "body", {0.0, -0.1, 0.0}, 0.0)};
+  legs.unknown["correlations"] = "patches_share_errors";
+  const std::string file = write("legs.json", *write_patch_set(legs));
+  const Outcome between = patchlab("map query " + file + " --between left right");
+  EXPECT_EQ(between.status, 0);
+  EXPECT_THAT(between.err, HasSubstr("legs.json: its patches share errors"));
+  EXPECT_EQ(patchlab("map query " + file + " --tilt left").err, "");
+}
+
 TEST_F(MapQuery, RefusesWhatIsNotClear) {
   PatchSet far;
   far.patches = {plate("far", "camera", {0.0, 0.0, 0.0}, 0.0)};

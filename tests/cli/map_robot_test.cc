@@ -56,7 +56,7 @@ TEST_F(MapRobot, TakesJointsAsATable) {
 
 TEST_F(MapRobot, SaysWhatIsMissingOrUnknown) {
   const std::pair<std::string, const char*> bad[] = {
-      {R"({"joints": {}})", "\"left_hip_yaw\""},
+      {R"({"joints": {}})", "joints.json: Joint \"left_hip_yaw\""},
       {R"({"joints": {"tail": {"value": 1}}})", "left_hip_yaw"},
       {R"({"joints": {"knee": {"value": "x"}}})", "knee.value"},
       {R"({"joints": {"knee": {"value": 1, "sigma": -1}}})", "sigma is negative"},
@@ -70,7 +70,14 @@ TEST_F(MapRobot, SaysWhatIsMissingOrUnknown) {
     EXPECT_TRUE(outcome.one_sentence()) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(says));
   }
-  EXPECT_THAT(walker(asset("walker.joints.json"), "--frame tail").err, HasSubstr("\"tail\""));
+  EXPECT_THAT(walker(asset("walker.joints.json"), "--frame tail").err,
+              HasSubstr("--frame: There is no link \"tail\""));
+  nlohmann::json patches = test::read_json(asset("walker.patches.json"));
+  patches["patches"][0]["link"] = "hoof";
+  const Outcome no_link =
+      patchlab("map robot " + asset("walker.urdf") + " --joints " + asset("walker.joints.json") +
+               " --patches " + write("hoof.json", patches.dump()));
+  EXPECT_THAT(no_link.err, HasSubstr("hoof.json: Patch \"left_sole\": There is no link \"hoof\""));
   const Outcome not_robot =
       patchlab("map robot " + write("r.urdf", "<robot>") + " --joints " + asset("walker.joints.json") +
                " --patches " + asset("walker.patches.json"));

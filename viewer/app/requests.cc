@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <ctime>
+#include <variant>
 
 #include "viewer/app/app.h"
 
@@ -21,11 +23,24 @@ std::string stem_of(const Document& document) {
                                 : std::filesystem::path(document.scans.back().name).stem().string();
 }
 
+// A merge says when it was made.
+Command dated(Command command) {
+  auto* const merge = std::get_if<Merge>(&command);
+  if (merge == nullptr || !merge->when.empty()) return command;
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  merge->when = text;
+  return command;
+}
+
 }  // namespace
 
 void App::answer(const Requests& requests) {
   for (const Action action : requests.actions) act(action);
-  for (const Command& command : requests.commands) workbench_.run(command);
+  for (const Command& command : requests.commands) workbench_.run(dated(command));
   if (requests.select) select(*requests.select);
   if (requests.surface) choose_surface(*requests.surface);
   if (requests.noise) workbench_.set_noise(requests.noise->scan, requests.noise->noise);

@@ -60,15 +60,22 @@ void draw_check(const Gui& gui, ImVec2 at, bool checked) {
   draw.AddPolyline(tick, 3, u32(gui.theme.panel), 0, gui.px(2));
 }
 
+// As the tree calls it.
+std::string name_in(const PatchSet& set, const std::string& id) {
+  const auto record = std::ranges::find(set.patches, id, &PatchRecord::id);
+  return record == set.patches.end() || record->name.empty() ? id : record->name;
+}
+
 void draw_match(const Gui& gui, const MergeProposal& proposal, const Match& match, RefusedPairs& refused) {
   const std::array<std::string, 2> pair = {proposal.map.patches[match.a].id, proposal.view.ids[match.b]};
   const auto at_refused = std::ranges::find(refused, pair);
   const bool accepted = at_refused == refused.end();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = gui.px(26);
-  const std::string name = pair[0] + " = " + pair[1];
-  const bool pressed = ImGui::InvisibleButton(name.c_str(), {width, height});
-  gui.note("matches/" + name);
+  const std::string ids = pair[0] + " = " + pair[1];
+  const std::string name = name_in(proposal.set, pair[0]) + " = " + name_in(proposal.added, pair[1]);
+  const bool pressed = ImGui::InvisibleButton(ids.c_str(), {width, height});
+  gui.note("matches/" + ids);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered()) {
     draw.AddRectFilled({at.x - gui.px(6), at.y}, {at.x + width + gui.px(6), at.y + height},

@@ -2,7 +2,7 @@
 // truth. What fits of one place have in common must not count as often as there are fits.
 //
 // Each expectation raises a false alarm with probability 1e-4 at most, were the seed drawn anew and the claim
-// just met. PATCHLAB_FULL=1 in the environment runs 200 trials a type in place of 4, on all cores.
+// just met. PATCHLAB_FULL=1 in the environment runs 800 trials a type in place of 4, on all cores.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Table1, FusedFits, testing::Range(std::size_t{0}, patch
 
 TEST_P(FusedFits, OfOnePlaceErrAsMuchAsTheirCovarianceSays) {
   const PatchTypeRow& type = patch_types()[GetParam()];
-  const int trials = full_run() ? 200 : 4;
+  const int trials = full_run() ? 800 : 4;
   const int threads = full_run() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
   const std::uint64_t seed = seed_of(current_test_name());
   const int dof = static_cast<int>(surface_error_names(type.surface).size());

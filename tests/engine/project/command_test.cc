@@ -76,26 +76,27 @@ TEST(CommandJson, KeepsEveryMemberThereAndBack) {
   Place place{"body", "world", {}};
   place.pose.pose = {{0.1, -0.2, 1.0 / 3.0}, {1e-300, 2.0, 3.0}};
   place.pose.covariance.diagonal().setConstant(0.1);
-  const std::vector<Command> commands = {open,
-                                         OpenMap{"map-1", "a.json", "ab12"},
-                                         OpenRobot{"robot-1", "w.urdf", "ab", "w.json", "cd", "p.json", "ef"},
-                                         SetJoint{"robot-1", "left_knee", 1.0 / 3.0, 0.002},
-                                         SetJoint{"robot-1", "left_knee", -0.1, {}},
-                                         place,
-                                         Merge{"map-1", "scan-2", 0.9, {{"a", "b"}, {"c", "d"}}},
-                                         SetNoise{"scan-2", "kinect1"},
-                                         lasso,
-                                         label,
-                                         indices,
-                                         flood,
-                                         Reshape{"region-3", Reshaping::shrink, 4},
-                                         Reshape{"region-3", Reshaping::linked},
-                                         fit,
-                                         Rename{"patch-1", "φ"},
-                                         Delete{"region-4"},
-                                         Show{"patch-1", false},
-                                         Undo{},
-                                         Redo{}};
+  const std::vector<Command> commands = {
+      open,
+      OpenMap{"map-1", "a.json", "ab12"},
+      OpenRobot{"robot-1", "w.urdf", "ab", "w.json", "cd", "p.json", "ef"},
+      SetJoint{"robot-1", "left_knee", 1.0 / 3.0, 0.002},
+      SetJoint{"robot-1", "left_knee", -0.1, {}},
+      place,
+      Merge{"map-1", "scan-2", 0.9, {{"a", "b"}, {"c", "d"}}, "2026-11-23T14:02:11Z"},
+      SetNoise{"scan-2", "kinect1"},
+      lasso,
+      label,
+      indices,
+      flood,
+      Reshape{"region-3", Reshaping::shrink, 4},
+      Reshape{"region-3", Reshaping::linked},
+      fit,
+      Rename{"patch-1", "φ"},
+      Delete{"region-4"},
+      Show{"patch-1", false},
+      Undo{},
+      Redo{}};
   for (const Command& command : commands) {
     const Result<Command> back = command_from_json(plain(command));
     ASSERT_TRUE(back.ok()) << back.error().message;
