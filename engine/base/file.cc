@@ -38,19 +38,21 @@ Error unreadable(const std::string& name, const std::string& why) {
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MB"; }
 
-constexpr std::size_t bytes_a_read = std::size_t{8} << 20;
+constexpr std::size_t bytes_a_read = std::size_t{256}
+                                     << 10;  // which stay in the cache from being made to being read
 
 Result<Bytes> read_to_end(int descriptor, const std::string& name, std::uint64_t limit, std::size_t expected,
                           const Progress& progress) {
   Bytes bytes;
   reserve_large(bytes, expected);
-  bytes.resize(expected);
   std::size_t used = 0;
   for (;;) {
-    if (used == bytes.size()) bytes.resize(used + std::max<std::size_t>(used / 2, 1 << 16));
-    const double share = expected > 0 ? static_cast<double>(used) / static_cast<double>(bytes.size()) : 0.0;
+    if (used == bytes.size())
+      bytes.resize(used < expected ? std::min(used + bytes_a_read, expected) : used + bytes_a_read);
+    const double share =
+        expected > 0 ? std::min(1.0, static_cast<double>(used) / static_cast<double>(expected)) : 0.0;
     if (!keep_going(progress, share)) return Error{ErrorCode::cancelled, name + ": reading was cancelled."};
-    const ssize_t got = ::read(descriptor, bytes.data() + used, std::min(bytes.size() - used, bytes_a_read));
+    const ssize_t got = ::read(descriptor, bytes.data() + used, bytes.size() - used);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return unreadable(name, "cannot be read: " + reason() + ".");
     if (got == 0) break;

@@ -1,7 +1,6 @@
 #include "engine/io/depth_image.h"
 
-#include <limits>
-
+#include "engine/io/depth_points.h"
 #include "engine/io/read_error.h"
 #include "engine/io/scan_from_columns.h"
 #include "engine/io/text_numbers.h"
@@ -52,23 +51,6 @@ std::optional<std::uint64_t> next_number(std::string_view& rest) {
   const auto number = parse_number<std::uint64_t>(rest.substr(0, end));
   rest.remove_prefix(end);
   return number;
-}
-
-// x = (u - cx) z / fx, y = (v - cy) z / fy: z lies along the optical axis (REP 118), not along the ray.
-void unproject(const DepthImage& image, const Intrinsics& camera, double scale, Scan& scan) {
-  const std::size_t pixels = image.samples.size();
-  scan.positions.assign(pixels, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
-  scan.finite.assign(pixels, 0);
-  for (std::uint32_t v = 0, i = 0; v < image.height; ++v) {
-    for (std::uint32_t u = 0; u < image.width; ++u, ++i) {
-      if (image.samples[i] == 0) continue;
-      const double z = image.samples[i] / scale;
-      scan.positions[i] =
-          Eigen::Vector3d((u - camera.cx) * z / camera.fx, (v - camera.cy) * z / camera.fy, z).cast<float>();
-      scan.finite[i] = scan.positions[i].allFinite() ? 1 : 0;
-      scan.finite_count += scan.finite[i];
-    }
-  }
 }
 
 }  // namespace
@@ -135,7 +117,10 @@ Result<Scan> read_depth_image(std::string_view bytes, const std::string& name, c
   scan.height = image->height;
   scan.viewpoint.stated = true;  // the points are in the frame of their camera
   scan.intrinsics = {camera.fx, camera.fy, camera.cx, camera.cy};
-  unproject(*image, camera, options.depth_scale, scan);
+  scan.positions.resize(image->samples.size());
+  scan.finite.resize(image->samples.size());
+  scan.finite_count = unproject({image->samples, image->width, camera, options.depth_scale},
+                                scan.positions.data(), scan.finite.data());
   if (scan.finite_count == 0) scan.notices.emplace_back("None of the pixels holds a depth.");
   if (camera.distorted)
     scan.notices.emplace_back("The distortion of the lens that the intrinsics state is not corrected.");

@@ -1,23 +1,20 @@
 #include "engine/io/place_points.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 
 #include "engine/base/large_pages.h"
+#include "engine/io/float_points.h"
 
 namespace patchlab {
 namespace {
 
-constexpr double large = 1000.0;           // m: a float there is coarser than 0.05 mm
-constexpr double wide_cloud = 500.0;       // m: more than most scans of metres span
-constexpr double wide_view = 50.0;         // m: more than a depth camera sees, and a part made by CAD
-constexpr float huge_coordinate = 1e7F;    // m: no map projection reaches it
-constexpr float tiny_coordinate = 1e-30F;  // m: only damage is smaller, but for zero
+constexpr double large = 1000.0;         // m: a float there is coarser than 0.05 mm
+constexpr double wide_cloud = 500.0;     // m: more than most scans of metres span
+constexpr double wide_view = 50.0;       // m: more than a depth camera sees, and a part made by CAD
+constexpr double huge_coordinate = 1e7;  // m: no map projection reaches it
 
 // The box of the points with finite coordinates, empty (low > high) where there are none.
 struct Box {
@@ -52,28 +49,12 @@ Eigen::Vector3d middle_origin(const Box& box, OriginRule rule) {
   return origin;
 }
 
-float float_at(const char* bytes) {
-  float value;
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
-
-// The bits of a float without its sign: in the order of its size, those that are not finite above all others.
-constexpr std::uint32_t magnitude(float value) { return std::bit_cast<std::uint32_t>(value) & 0x7fffffffU; }
-constexpr std::uint32_t magnitude_of_infinity = magnitude(std::numeric_limits<float>::infinity());
-
-bool is_strange(float value) {
-  const std::uint32_t size = magnitude(value);
-  return size > magnitude(huge_coordinate) || (size < magnitude(tiny_coordinate) && size > 0);
-}
-
 // Asked, never guessed: no file format carries its unit. Map coordinates are metres.
 void ask_for_unit(Scan& scan, const Box& box) {
   const double span = (box.high - box.low).matrix().norm();
   constexpr std::string_view meshes[] = {"obj", "off", "stl"};
   const bool view = scan.organized() || std::ranges::find(meshes, scan.format) != std::end(meshes);
-  if (span < (view ? wide_view : wide_cloud) || span > double{huge_coordinate} ||
-      scan.origin.norm() > 10.0 * span)
+  if (span < (view ? wide_view : wide_cloud) || span > huge_coordinate || scan.origin.norm() > 10.0 * span)
     return;
   scan.notices.push_back(
       "The points span " + std::to_string(std::lround(span)) +
@@ -112,32 +93,16 @@ bool place_floats(Scan& scan, const std::array<const Column*, 3>& xyz, std::size
   std::vector<Eigen::Vector3f> positions;
   reserve_large(positions, points);
   positions.resize(points);
-  scan.finite.resize(points);
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  std::array<float, 3> low = {infinity, infinity, infinity}, high = {-infinity, -infinity, -infinity};
-  std::size_t finite_count = 0, strange = 0;
-  const char *x = xyz[0]->first, *y = xyz[1]->first, *z = xyz[2]->first;
-  for (std::size_t i = 0; i < points; ++i, x += xyz[0]->stride, y += xyz[1]->stride, z += xyz[2]->stride) {
-    const std::array<float, 3> p = {float_at(x), float_at(y), float_at(z)};
-    const bool finite = std::max({magnitude(p[0]), magnitude(p[1]), magnitude(p[2])}) < magnitude_of_infinity;
-    scan.finite[i] = finite ? 1 : 0;
-    finite_count += finite ? 1 : 0;
-    if (!finite) {
-      positions[i].setConstant(std::numeric_limits<float>::quiet_NaN());
-      continue;
-    }
-    positions[i] = {p[0], p[1], p[2]};
-    strange += (is_strange(p[0]) | is_strange(p[1]) | is_strange(p[2])) ? 1 : 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  }
-  if (2 * strange > finite_count) return false;
+  scan.finite.assign(points, 1);
+  const FloatSurvey survey = take_floats(xyz, points, positions.data(), scan.finite.data());
+  if (2 * survey.strange > survey.finite) return false;
   scan.positions = std::move(positions);
-  scan.finite_count = finite_count;
+  scan.finite_count = survey.finite;
   note_none(scan);
-  settle(scan, {Eigen::Array3f(low.data()).cast<double>(), Eigen::Array3f(high.data()).cast<double>()}, rule);
+  settle(
+      scan,
+      {Eigen::Array3f(survey.low.data()).cast<double>(), Eigen::Array3f(survey.high.data()).cast<double>()},
+      rule);
   if (scan.origin.isZero(0.0)) return true;
   for (Eigen::Vector3f& p : scan.positions) p = (p.cast<double>() - scan.origin).cast<float>();
   return true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "engine/base/large_pages.h"
@@ -108,35 +109,49 @@ Result<Points> viewpoints_of(const Scan& scan, Columns columns, std::size_t poin
                                    std::string(viewpoint_names[missing]) + "' is missing.");
 }
 
-// One in each four bytes: blue, green, red from the lowest.
-void unpack_colours(Scan& scan, const Column& column, std::size_t points) {
-  const std::array<std::size_t, 3> places =
-      column.swapped ? std::array<std::size_t, 3>{1, 2, 3} : std::array<std::size_t, 3>{2, 1, 0};
-  for (std::size_t i = 0; i < points; ++i) {
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(column.first + i * column.stride);
-    scan.colours[i] = {bytes[places[0]], bytes[places[1]], bytes[places[2]]};
+// Blue, green, red from the lowest of four bytes, or the other way round from the highest.
+template <bool swapped>
+std::array<std::uint8_t, 3> unpacked(const char* bytes) {
+  std::array<std::uint8_t, 4> b;
+  std::memcpy(b.data(), bytes, b.size());
+  return swapped ? std::array{b[1], b[2], b[3]} : std::array{b[2], b[1], b[0]};
+}
+
+// A block at a time, which stays in the cache until it is appended.
+template <class ColourAt>
+void append_colours(Scan& scan, std::size_t points, const ColourAt& colour_at) {
+  constexpr std::size_t block = 1024;
+  reserve_large(scan.colours, points);
+  std::array<std::array<std::uint8_t, 3>, block> some;
+  for (std::size_t first = 0; first < points; first += block) {
+    const std::size_t count = std::min(block, points - first);
+    for (std::size_t i = 0; i < count; ++i) some[i] = colour_at(first + i);
+    scan.colours.insert(scan.colours.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(count));
   }
 }
 
 void fill_colours(Scan& scan, Columns columns, std::size_t points) {
   for (const Column* packed : find_columns(columns, packed_colour_names)) {
     if (packed == nullptr || size_of(packed->type) != 4) continue;
-    reserve_large(scan.colours, points);
-    scan.colours.resize(points);
-    return unpack_colours(scan, *packed, points);
+    const char* const first = packed->first;
+    const std::size_t stride = packed->stride;
+    return packed->swapped ? append_colours(scan, points,
+                                            [&](std::size_t i) { return unpacked<true>(first + i * stride); })
+                           : append_colours(scan, points, [&](std::size_t i) {
+                               return unpacked<false>(first + i * stride);
+                             });
   }
   for (const Names3& names : colour_names) {
     const auto found = find_columns(columns, names);
     if (!is_complete(found) ||
         std::ranges::any_of(found, [](const Column* c) { return c->type != Scalar::uint8; }))
       continue;
-    reserve_large(scan.colours, points);
-    scan.colours.resize(points);
-    for (std::size_t i = 0; i < points; ++i) {
-      for (std::size_t k = 0; k < 3; ++k)
-        scan.colours[i][k] = static_cast<std::uint8_t>(found[k]->first[i * found[k]->stride]);
-    }
-    return;
+    const auto byte = [](const Column& column, std::size_t i) {
+      return static_cast<std::uint8_t>(column.first[i * column.stride]);
+    };
+    return append_colours(scan, points, [&](std::size_t i) {
+      return std::array{byte(*found[0], i), byte(*found[1], i), byte(*found[2], i)};
+    });
   }
 }
 

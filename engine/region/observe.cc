@@ -6,6 +6,7 @@
 
 #include "engine/pose/rotation.h"
 #include "engine/region/pixel_edges.h"
+#include "engine/sensor/point_covariances.h"
 
 namespace patchlab {
 namespace {
@@ -55,6 +56,11 @@ void use_sensor_model(const Scan& scan, const NoiseModel& model, Observations& o
                                                                     const Eigen::Vector3d& foot) {
     return one_sensor ? covariance(model, R, position, foot) : covariance(model, sensors[i], foot);
   };
+  if (one_sensor) {
+    observations.covariances =
+        covariances(model, rotation(scan.viewpoint), scan.viewpoint.position, observations.points);
+    return;
+  }
   observations.covariances.reserve(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     observations.covariances.push_back(observations.covariance_at(i, observations.points[i]));
