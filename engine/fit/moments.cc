@@ -131,7 +131,11 @@ JointSums joint_sums(const Samples& samples, const SurfaceFit& fit, const FootPo
 }
 
 JointCovariance::JointCovariance(const JointSums& sums, const SurfaceFit& fit, const SurfaceFit* plane)
-    : G_(sums.G.selfadjointView<Eigen::Lower>()), A_inverse_(chart_covariance(fit)), M_(sums.M) {
+    : G_(sums.G.selfadjointView<Eigen::Lower>()),
+      A_inverse_(chart_covariance(fit)),
+      M_(sums.M),
+      moments_share_fit_(!sums.G.bottomLeftCorner<moments_size, chart_size>().isZero(0.0)),
+      by_plane_(plane != nullptr) {
   if (fit.prior) G_.topLeftCorner<chart_size, chart_size>() += prior_information(fit);
   if (plane == nullptr) return;
   const ChartMatrix of_plane = chart_covariance(*plane);
@@ -140,18 +144,42 @@ JointCovariance::JointCovariance(const JointSums& sums, const SurfaceFit& fit, c
   }
 }
 
+// Rows of 0 to an even number of them, which vector instructions take two at a time.
 PatchMatrix JointCovariance::of(const JointRows& J) const {
-  using AllRows = Eigen::Matrix<double, 11, joint_size>;
-  AllRows all = AllRows::Zero(), D;
-  all.topRows(J.rows()) = J;
-  const Eigen::Matrix<double, 11, chart_size> J_chart =
-      all.leftCols<chart_size>() + all.rightCols<moments_size>().lazyProduct(M_);
-  D.leftCols<chart_size>() = -J_chart.lazyProduct(A_inverse_);
-  D.middleCols<plane_size>(plane_at) = -all.middleCols<plane_size>(plane_at).lazyProduct(plane_inverse_);
-  D.rightCols<moments_size>() = all.rightCols<moments_size>();
-  const AllRows DG = D.lazyProduct(G_);
-  const Eigen::Matrix<double, 11, 11> cov = DG.lazyProduct(D.transpose());
+  constexpr int most = 12;
+  using ChartRows = Eigen::Matrix<double, most, chart_size>;
+  using PlaneRows = Eigen::Matrix<double, most, plane_size>;
+  using MomentRowsOf = Eigen::Matrix<double, most, moments_size>;
+  using Square = Eigen::Matrix<double, most, most>;
   const auto n = J.rows();
+  ChartRows by_chart = ChartRows::Zero();
+  PlaneRows by_plane = PlaneRows::Zero();
+  MomentRowsOf by_moments = MomentRowsOf::Zero();
+  by_chart.topRows(n) = J.leftCols<chart_size>();
+  by_plane.topRows(n) = J.middleCols<plane_size>(plane_at);
+  by_moments.topRows(n) = J.rightCols<moments_size>();
+  by_chart += by_moments.lazyProduct(M_);
+  const ChartRows chart = -by_chart.lazyProduct(A_inverse_);
+  const ChartRows chart_G = chart.lazyProduct(G_.topLeftCorner<chart_size, chart_size>());
+  const MomentRowsOf moments_G = by_moments.lazyProduct(G_.bottomRightCorner<moments_size, moments_size>());
+  Square cov = chart_G.lazyProduct(chart.transpose());
+  cov += moments_G.lazyProduct(by_moments.transpose());
+  Square shared = Square::Zero();  // its transpose belongs to it
+  if (moments_share_fit_) {
+    const ChartRows with_fit = by_moments.lazyProduct(G_.bottomLeftCorner<moments_size, chart_size>());
+    shared += with_fit.lazyProduct(chart.transpose());
+  }
+  if (by_plane_) {
+    const PlaneRows plane = -by_plane.lazyProduct(plane_inverse_);
+    const auto G_plane = G_.middleRows<plane_size>(plane_at);
+    const PlaneRows plane_G = plane.lazyProduct(G_plane.middleCols<plane_size>(plane_at));
+    cov += plane_G.lazyProduct(plane.transpose());
+    const ChartRows with_fit = plane.lazyProduct(G_plane.leftCols<chart_size>());
+    const MomentRowsOf with_moments = plane.lazyProduct(G_plane.rightCols<moments_size>());
+    shared += with_fit.lazyProduct(chart.transpose());
+    shared += with_moments.lazyProduct(by_moments.transpose());
+  }
+  cov += shared + shared.transpose();
   return 0.5 * (cov + cov.transpose()).topLeftCorner(n, n);
 }
 

@@ -77,6 +77,7 @@ class JointCovariance {
   ChartMatrix A_inverse_ = ChartMatrix::Zero();
   MomentChartMatrix M_ = MomentChartMatrix::Zero();
   Matrix3d plane_inverse_ = Matrix3d::Zero();
+  bool moments_share_fit_ = false, by_plane_ = false;  // whether these parts of G are not 0
 };
 
 }  // namespace patchlab

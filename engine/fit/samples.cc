@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <string>
@@ -26,6 +27,19 @@ double thinnest(const Eigen::Matrix3d& cov) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cov, Eigen::EigenvaluesOnly).eigenvalues()[0] / trace;
 }
 
+// Nearly all are: finite, symmetric, with extent in every direction. Written so that what is
+// not finite is not.
+bool is_clearly_good(const Eigen::Vector3d& point, const Eigen::Matrix3d& cov) {
+  constexpr double clearly = 1e-9;
+  const double xx = cov(0, 0), xy = cov(1, 0), xz = cov(2, 0), yy = cov(1, 1), yz = cov(2, 1), zz = cov(2, 2);
+  const double trace = xx + yy + zz, minor = xx * yy - xy * xy;
+  const double determinant = zz * minor - yz * (xx * yz - xy * xz) + xz * (xy * yz - yy * xz);
+  const double apart = std::abs(cov(0, 1) - xy) + std::abs(cov(0, 2) - xz) + std::abs(cov(1, 2) - yz);
+  const bool extended =
+      (xx > 0.0) & (minor > clearly * trace * trace) & (4.0 * determinant > clearly * trace * trace * trace);
+  return (apart <= 0.1 * clearly * trace) & extended & (point.sum() - point.sum() == 0.0);
+}
+
 // What is wrong with a sample; nothing where it is good. Counts those without extent in some direction.
 const char* fault_of(const Eigen::Vector3d& point, const Eigen::Matrix3d& cov, std::size_t& semidefinite) {
   if (!point.allFinite()) return "its position is not finite; remove it.";
@@ -44,7 +58,10 @@ const char* fault_of(const Eigen::Vector3d& point, const Eigen::Matrix3d& cov, s
 Result<std::size_t> check_samples(const Observations& observations) {
   std::size_t semidefinite = 0;
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    const char* fault = fault_of(observations.points[i], observations.covariances[i], semidefinite);
+    const Eigen::Vector3d& point = observations.points[i];
+    const Eigen::Matrix3d& cov = observations.covariances[i];
+    if (is_clearly_good(point, cov)) continue;
+    const char* fault = fault_of(point, cov, semidefinite);
     if (fault != nullptr) return no_fit("Point " + std::to_string(i) + " (counted from 0): " + fault);
   }
   return semidefinite;
@@ -69,11 +86,20 @@ Spread spread_of(const Samples& samples) {
   return {against.eigenvalues().reverse(), plain.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt()};
 }
 
+Eigen::Matrix3d scatter_of(const std::vector<Eigen::Vector3d>& points) {
+  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;  // in registers
+  for (const Eigen::Vector3d& q : points) {
+    xx += q.x() * q.x(), xy += q.x() * q.y(), xz += q.x() * q.z();
+    yy += q.y() * q.y(), yz += q.y() * q.z(), zz += q.z() * q.z();
+  }
+  return (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
+}
+
 // Keeps their scatter and extent.
 Result<void> check_spread(Samples& samples) {
   constexpr double least_spread = 9.0;  // method M10
   constexpr double least_aspect = 1e-3;
-  for (const Eigen::Vector3d& q : samples.q) samples.scatter += q * q.transpose();
+  samples.scatter = scatter_of(samples.q);
   const Spread spread = spread_of(samples);
   samples.extent = spread.extent.norm();
   if (spread.extent[0] == 0.0 || spread.against_noise[0] < least_spread) {
@@ -107,15 +133,27 @@ void put_cov(Samples& samples, std::size_t i) {
 }
 
 // The last block is filled up with the last sample.
+void fill_block(const Samples& samples, std::size_t first, SampleBlock& block) {
+  const std::size_t last = samples.size() - 1;
+  for (std::size_t i = 0; i < block_size; ++i) {
+    const std::size_t from = std::min(first + i, last);
+    const Eigen::Vector3d& q = samples.q[from];
+    const double* cov = samples.cov[from].data();
+    for (const int axis : {0, 1, 2}) block.q[axis][i] = q[axis];
+    block.cov[0][i] = cov[0];
+    block.cov[1][i] = cov[1];
+    block.cov[2][i] = cov[2];
+    block.cov[3][i] = cov[4];
+    block.cov[4][i] = cov[5];
+    block.cov[5][i] = cov[8];
+  }
+}
+
 void fill_blocks(Samples& samples) {
   samples.blocks.resize((samples.size() + block_size - 1) / block_size);
-  for (std::size_t i = 0; i < block_size * samples.blocks.size(); ++i) {
-    const std::size_t from = std::min(i, samples.size() - 1);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      samples.blocks[i / block_size].q[axis][i % block_size] = samples.q[from][axis];
-    }
+  for (std::size_t b = 0; b < samples.blocks.size(); ++b) {
+    fill_block(samples, b * block_size, samples.blocks[b]);
   }
-  for (std::size_t i = 0; i < samples.size(); ++i) put_cov(samples, i);
   for (std::size_t i = 0; samples.semidefinite > 0 && i < samples.size(); ++i) {
     if (thinnest(samples.cov[i]) < no_extent) samples.blocks[i / block_size].thin = true;
   }

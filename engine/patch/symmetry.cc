@@ -71,10 +71,13 @@ bool wants_swap(const Patch& patch) {
   return d[0] < d[1];
 }
 
-// The smaller |r|; on a tie the larger r_z, then r_x, then r_y.
-bool wants_half_turn(const Patch& patch, const Patch& turned) {
+Vector3d half_turn_signs() { return {-1.0, -1.0, 1.0}; }
+
+// The smaller |r|; on a tie the larger r_z, then r_x, then r_y. Of patches that are not revolute.
+bool wants_half_turn(const Patch& patch) {
   constexpr double slack = 1e-12;
-  const Vector3d r = world_from_patch(patch).r, r_turned = world_from_patch(turned).r;
+  const Vector3d r = world_from_patch(patch).r;
+  const Vector3d r_turned = log_map(axes(patch) * half_turn_signs().asDiagonal());
   const double shorter = r.norm() - r_turned.norm();
   if (std::abs(shorter) > slack) return shorter > 0.0;
   for (const int i : {2, 0, 1}) {
@@ -100,7 +103,7 @@ Patch flip_normal(const Patch& patch) {
 Patch half_turn(const Patch& patch) {
   const PatchTypeRow& type = *patch.type;
   return relabelled(patch, linear(patch, J_vertices(type, {2, 3, 0, 1, 4}), identity(type.curvature_size),
-                                  Vector3d(-1, -1, 1).asDiagonal()));
+                                  half_turn_signs().asDiagonal()));
 }
 
 Patch swap_axes(const Patch& patch) {
@@ -120,10 +123,7 @@ Patch swap_axes(const Patch& patch) {
 Patch conventional(const Patch& patch, const std::optional<Vector3d>& viewpoint) {
   Patch out = viewpoint && wants_flip(patch, *viewpoint) ? flip_normal(patch) : patch;
   if (wants_swap(out)) out = swap_axes(out);
-  if (!out.type->revolute()) {
-    const Patch turned = half_turn(out);
-    if (wants_half_turn(out, turned)) out = turned;
-  }
+  if (!out.type->revolute() && wants_half_turn(out)) out = half_turn(out);
   return with_canonical_rotation(out);
 }
 

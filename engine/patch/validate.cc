@@ -1,3 +1,4 @@
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
@@ -16,8 +17,8 @@ using Reason = std::string;
 Reason wrong_sizes(const Patch& patch) {
   const int n = patch.type->size();
   if (patch.parameters.size() != n) return "needs " + std::to_string(n) + " parameters.";
-  for (const auto& covariance : {patch.covariance, patch.covariance_local}) {
-    if (covariance && (covariance->rows() != n || covariance->cols() != n)) {
+  for (const auto* covariance : {&patch.covariance, &patch.covariance_local}) {
+    if (*covariance && ((*covariance)->rows() != n || (*covariance)->cols() != n)) {
       return "needs a covariance of " + std::to_string(n) + " rows and columns.";
     }
   }
@@ -25,6 +26,7 @@ Reason wrong_sizes(const Patch& patch) {
 }
 
 Reason not_finite(const Patch& patch) {
+  if (patch.parameters.allFinite()) return {};
   const std::vector<std::string> names = parameter_names(*patch.type);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!std::isfinite(patch.parameters[static_cast<Eigen::Index>(i)]))
@@ -82,6 +84,8 @@ Reason wrong_covariance(const std::optional<PatchMatrix>& covariance) {
   const PatchMatrix scaled = scale.asDiagonal() * *covariance * scale.asDiagonal();
   if ((scaled - scaled.transpose()).cwiseAbs().maxCoeff() > tolerance)
     return "has a covariance that is not symmetric.";
+  const PatchMatrix raised = scaled + tolerance * PatchMatrix::Identity(scaled.rows(), scaled.cols());
+  if (Eigen::LLT<PatchMatrix>(raised).info() == Eigen::Success) return {};  // no eigenvalue below -tolerance
   const Eigen::SelfAdjointEigenSolver<PatchMatrix> solver(scaled, Eigen::EigenvaluesOnly);
   if (solver.eigenvalues()[0] < -tolerance) return "has a covariance that is not positive semi-definite.";
   return {};

@@ -45,26 +45,31 @@ Eigen::Vector3d sensor_position(const Scan& scan, std::size_t id) {
   return is_own ? (scan.origin + scan.viewpoints[id].cast<double>()).eval() : scan.viewpoint.position;
 }
 
-void use_sensor_model(const Scan& scan, const NoiseModel& model, Observations& observations) {
-  const bool one_sensor = observations.viewpoints.empty();
-  std::vector<Viewpoint> sensors;
-  for (std::size_t i = 0; i < observations.viewpoints.size(); ++i) {
-    sensors.push_back(looking_at(observations.viewpoints[i], observations.points[i]));
-  }
-  observations.covariance_at = [model, one_sensor, sensors = std::move(sensors), R = rotation(scan.viewpoint),
-                                position = scan.viewpoint.position](std::size_t i,
-                                                                    const Eigen::Vector3d& foot) {
-    return one_sensor ? covariance(model, R, position, foot) : covariance(model, sensors[i], foot);
+void use_one_sensor(const Scan& scan, const NoiseModel& model, Observations& observations) {
+  const Eigen::Matrix3d R = rotation(scan.viewpoint);
+  const Eigen::Vector3d position = scan.viewpoint.position;
+  observations.covariance_at = [model, R, position](std::size_t, const Eigen::Vector3d& foot) {
+    return covariance(model, R, position, foot);
   };
-  if (one_sensor) {
-    observations.covariances =
-        covariances(model, rotation(scan.viewpoint), scan.viewpoint.position, observations.points);
-    return;
-  }
+  observations.covariances = covariances(model, R, position, observations.points);
+}
+
+void use_own_sensors(const NoiseModel& model, Observations& observations) {
+  std::vector<Viewpoint> sensors;
   observations.covariances.reserve(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    observations.covariances.push_back(observations.covariance_at(i, observations.points[i]));
+    sensors.push_back(looking_at(observations.viewpoints[i], observations.points[i]));
+    observations.covariances.push_back(covariance(model, sensors[i], observations.points[i]));
   }
+  observations.covariance_at = [model, sensors = std::move(sensors)](std::size_t i,
+                                                                     const Eigen::Vector3d& foot) {
+    return covariance(model, sensors[i], foot);
+  };
+}
+
+void use_sensor_model(const Scan& scan, const NoiseModel& model, Observations& observations) {
+  if (observations.viewpoints.empty()) return use_one_sensor(scan, model, observations);
+  use_own_sensors(model, observations);
 }
 
 std::vector<double> depth_sigmas(const Scan& scan, const Observations& observations) {
