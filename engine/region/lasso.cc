@@ -63,7 +63,7 @@ std::vector<std::uint32_t> select_lasso(const Scan& scan, const ViewCamera& came
   const PolygonMask mask(contour);
   const Projector project_point(camera);
   const auto is_inside = [&](std::uint32_t id) {
-    if (!scan.finite[id]) return false;
+    if (!scan.positions[id].allFinite()) return false;  // as scan.finite has it, but at hand
     const Projected pixel = project_point(scan.point(id));
     return in_depth(camera, pixel.depth) && mask.contains(pixel.x, pixel.y);
   };

@@ -43,6 +43,8 @@ void add_one(const CellCamera& camera, const PolygonMask::Grid& grid, const floa
 }
 
 #if defined(__x86_64__)
+constexpr std::size_t fetched_ahead = 256;  // floats fetched before they are needed
+
 struct EightPoints {
   __m256 x, y, z;
 };
@@ -92,104 +94,162 @@ constexpr std::array<std::uint32_t, 256> places_of_bits = [] {
   return places;
 }();
 
-// Points to be looked up, and in which cell, counted row by row.
+// The cells in which points are to be looked up, counted row by row, in the order of the points.
 struct CellQueries {
-  std::array<std::int32_t, LassoCandidates::capacity + 8> cells;  // room for a vector
-  std::array<std::uint32_t, LassoCandidates::capacity + 8> points;
+  std::array<std::int32_t, LassoCandidates::capacity + 64> cells;  // room for a word of answers
   std::size_t count = 0;
 };
 
-// Adds those of eight points whose bit is set.
-[[gnu::target("avx2,popcnt")]] inline void add_some(unsigned mask, __m256i cells, __m256i points,
-                                                    CellQueries& queries) {
+// Moves those of eight cells whose bit is set to the front. Of a place, three bits count.
+[[gnu::target("avx2")]] inline __m256i pack(unsigned mask, __m256i cells) {
   const __m256i nibbles = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28);
   const __m256i packed = _mm256_set1_epi32(static_cast<int>(places_of_bits[mask]));
-  const __m256i places = _mm256_srlv_epi32(packed, nibbles);  // of which three bits count
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(queries.cells.data() + queries.count),
-                      _mm256_permutevar8x32_epi32(cells, places));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(queries.points.data() + queries.count),
-                      _mm256_permutevar8x32_epi32(points, places));
-  queries.count += static_cast<std::size_t>(__builtin_popcount(mask));
+  return _mm256_permutevar8x32_epi32(cells, _mm256_srlv_epi32(packed, nibbles));
 }
 
-// Eight cells at once: pays where all eight are wanted.
-[[gnu::target("avx2")]] inline void answer_eight(const PolygonMask::Grid& grid, __m256i cells,
-                                                 std::size_t byte, LassoCandidates& found) {
-  const __m256i words =
-      _mm256_i32gather_epi32(reinterpret_cast<const int*>(grid.words), _mm256_srli_epi32(cells, 4), 4);
-  const __m256i place = _mm256_slli_epi32(_mm256_and_si256(cells, _mm256_set1_epi32(15)), 1);
-  const __m256i cell = _mm256_srlv_epi32(words, place);
-  const unsigned open = bits_of(_mm256_castsi256_ps(_mm256_slli_epi32(cell, 30)));
-  const unsigned inside = bits_of(_mm256_castsi256_ps(_mm256_slli_epi32(cell, 31)));
-  reinterpret_cast<unsigned char*>(found.points.data())[byte] = static_cast<unsigned char>(inside | open);
-  reinterpret_cast<unsigned char*>(found.open.data())[byte] = static_cast<unsigned char>(open);
+// A number each of two by eight points: what multiplies both is read once.
+struct Two {
+  __m256 a, b;
+};
+
+[[gnu::target("avx2,fma"), gnu::always_inline]] inline Two dot(const std::array<float, 4>& c,
+                                                               const EightPoints& a, const EightPoints& b) {
+  const __m256 c0 = _mm256_set1_ps(c[0]), c1 = _mm256_set1_ps(c[1]), c2 = _mm256_set1_ps(c[2]),
+               c3 = _mm256_set1_ps(c[3]);
+  return {_mm256_fmadd_ps(c0, a.x, _mm256_fmadd_ps(c1, a.y, _mm256_fmadd_ps(c2, a.z, c3))),
+          _mm256_fmadd_ps(c0, b.x, _mm256_fmadd_ps(c1, b.y, _mm256_fmadd_ps(c2, b.z, c3)))};
 }
 
-// The first points, eight at a time: as many as are returned.
+// Where eight points are on the grid: columns and rows times w.
+struct Places {
+  __m256 column, row, w;
+};
+
+struct Limits {
+  __m256 columns, rows, sure_from, sure_to;
+};
+
+// Of some vectors only the signs count: cheaper than as many comparisons and minima. No number, no place on
+// the grid: what is infinite or no number is not sure.
+[[gnu::target("avx2,fma"), gnu::always_inline]] inline __m256 signs_of_sure(const Limits& limits,
+                                                                            __m256 depth) {
+  return _mm256_and_ps(_mm256_cmp_ps(depth, limits.sure_from, _CMP_GT_OQ),
+                       _mm256_sub_ps(depth, limits.sure_to));
+}
+
+[[gnu::target("avx2,fma"), gnu::always_inline]] inline __m256 signs_off_grid(const Limits& limits,
+                                                                             const Places& at) {
+  const __m256 right = _mm256_fmsub_ps(limits.columns, at.w, at.column);
+  const __m256 below = _mm256_fmsub_ps(limits.rows, at.w, at.row);
+  return _mm256_or_ps(_mm256_or_ps(at.column, at.row), _mm256_or_ps(right, below));
+}
+
+// Puts those not sure into the given cell of the first row.
+[[gnu::target("avx2,fma")]] inline void move_unsure(__m256 signs_of_sure, __m256 cell, Places& at) {
+  const __m256 one = _mm256_set1_ps(1.0F);
+  at = {_mm256_blendv_ps(cell, at.column, signs_of_sure),
+        _mm256_blendv_ps(_mm256_setzero_ps(), at.row, signs_of_sure),
+        _mm256_blendv_ps(one, at.w, signs_of_sure)};
+}
+
+[[gnu::target("avx2,fma"), gnu::always_inline]] inline __m256i cells_of(const Places& at, __m256 cells_a_row,
+                                                                        __m256i last) {
+  constexpr int whole = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC;
+  const __m256 a_w = _mm256_div_ps(_mm256_set1_ps(1.0F), at.w);
+  const __m256 row = _mm256_round_ps(_mm256_mul_ps(at.row, a_w), whole);
+  const __m256 column = _mm256_round_ps(_mm256_mul_ps(at.column, a_w), whole);
+  const __m256i cells = _mm256_cvttps_epi32(_mm256_fmadd_ps(row, cells_a_row, column));  // below 2^24: exact
+  return _mm256_min_epu32(cells, last);
+}
+
+// The first points, sixteen at a time: as many as are returned. Marks as candidates those to be looked up.
 template <bool perspective>
-[[gnu::target("avx2,fma,popcnt")]] std::size_t add_eights(const CellCamera camera,
-                                                          const PolygonMask::Grid grid, const float* xyz,
-                                                          std::size_t count, LassoCandidates& found,
-                                                          CellQueries& queries) {
-  const __m256 zero = _mm256_setzero_ps(), one = _mm256_set1_ps(1.0F);
-  const __m256 columns = _mm256_set1_ps(static_cast<float>(grid.columns)),
-               rows = _mm256_set1_ps(static_cast<float>(grid.rows));
-  const __m256 sure_from = _mm256_set1_ps(camera.sure_from), sure_to = _mm256_set1_ps(camera.sure_to);
+[[gnu::target("avx2,fma,popcnt")]] std::size_t add_sixteens(const CellCamera& camera,
+                                                            const PolygonMask::Grid& grid, const float* xyz,
+                                                            std::size_t count, LassoCandidates& found,
+                                                            CellQueries& queries) {
+  const __m256 one = _mm256_set1_ps(1.0F);
+  const Limits limits = {_mm256_set1_ps(static_cast<float>(grid.columns)),
+                         _mm256_set1_ps(static_cast<float>(grid.rows)), _mm256_set1_ps(camera.sure_from),
+                         _mm256_set1_ps(camera.sure_to)};
   const __m256 cells_a_row = _mm256_set1_ps(static_cast<float>(grid.words_a_row * PolygonMask::cells_a_word));
-  const __m256i unsure_cell = _mm256_set1_epi32(static_cast<int>(grid.unsure_cell()));
-  const __m256i eight = _mm256_set1_epi32(8);
-  __m256i points = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  const __m256 unsure_cell = _mm256_set1_ps(static_cast<float>(grid.unsure_cell()));
+  const __m256i last = _mm256_cvttps_epi32(unsure_cell);
+  auto* const wanted = reinterpret_cast<unsigned char*>(found.points.data());
+  std::int32_t* next = queries.cells.data();
   std::size_t i = 0;
-  for (; i + 8 <= count; i += 8, points = _mm256_add_epi32(points, eight)) {
-    __builtin_prefetch(xyz + 3 * i + 256);
-    __builtin_prefetch(xyz + 3 * i + 272);
-    const EightPoints q = load_eight(xyz + 3 * i);
-    const __m256 depth = dot(camera.depth, q), w = perspective ? depth : one;
-    const __m256 column = dot(camera.column, q), row = dot(camera.row, q);
-    const __m256 room =
-        _mm256_min_ps(_mm256_min_ps(column, row),
-                      _mm256_min_ps(_mm256_fmsub_ps(columns, w, column), _mm256_fmsub_ps(rows, w, row)));
-    const __m256 on_grid = _mm256_cmp_ps(room, zero, _CMP_GE_OQ);
-    const __m256 sure =
-        _mm256_and_ps(_mm256_cmp_ps(depth, sure_from, _CMP_GT_OQ), _mm256_cmp_ps(depth, sure_to, _CMP_LT_OQ));
-    unsigned mask = bits_of(_mm256_and_ps(on_grid, sure));
-    const unsigned unsure = 255U & ~bits_of(sure);
-    if (unsure != 0) mask |= unsure & ~hidden_of(camera, q, depth);
-    if (mask == 0) continue;
-    const __m256 a_w = _mm256_div_ps(one, w);
-    const __m256 whole_row = _mm256_round_ps(_mm256_mul_ps(row, a_w), _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
-    const __m256 whole_column =
-        _mm256_round_ps(_mm256_mul_ps(column, a_w), _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
-    const __m256i cells = _mm256_min_epu32(
-        _mm256_cvttps_epi32(_mm256_fmadd_ps(whole_row, cells_a_row, whole_column)),  // below 2^24: exact
-        unsure_cell);
-    const __m256i known = _mm256_blendv_epi8(unsure_cell, cells, _mm256_castps_si256(sure));
-    if (mask == 255)
-      answer_eight(grid, known, i / 8, found);
-    else
-      add_some(mask, known, points, queries);
+  for (; i + 16 <= count; i += 16) {
+    for (std::size_t line = 0; line < 3; ++line) __builtin_prefetch(xyz + 3 * i + fetched_ahead + 16 * line);
+    const EightPoints a = load_eight(xyz + 3 * i), b = load_eight(xyz + 3 * i + 24);
+    const Two depth = dot(camera.depth, a, b), w = perspective ? depth : Two{one, one};
+    const Two column = dot(camera.column, a, b), row = dot(camera.row, a, b);
+    Places at_a = {column.a, row.a, w.a}, at_b = {column.b, row.b, w.b};
+    const Two sure = {signs_of_sure(limits, depth.a), signs_of_sure(limits, depth.b)};
+    unsigned of_a = bits_of(_mm256_andnot_ps(signs_off_grid(limits, at_a), sure.a));
+    unsigned of_b = bits_of(_mm256_andnot_ps(signs_off_grid(limits, at_b), sure.b));
+    if (bits_of(_mm256_and_ps(sure.a, sure.b)) != 255U) {
+      of_a |= 255U & ~bits_of(sure.a) & ~hidden_of(camera, a, depth.a);
+      of_b |= 255U & ~bits_of(sure.b) & ~hidden_of(camera, b, depth.b);
+      move_unsure(sure.a, unsure_cell, at_a);
+      move_unsure(sure.b, unsure_cell, at_b);
+    }
+    if ((of_a | of_b) == 0) continue;
+    wanted[i / 8] = static_cast<unsigned char>(of_a);
+    wanted[i / 8 + 1] = static_cast<unsigned char>(of_b);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(next), pack(of_a, cells_of(at_a, cells_a_row, last)));
+    next += __builtin_popcount(of_a);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(next), pack(of_b, cells_of(at_b, cells_a_row, last)));
+    next += __builtin_popcount(of_b);
   }
+  queries.count = static_cast<std::size_t>(next - queries.cells.data());
   return i;
 }
 
-// Without branches: in which cells points lie follows no pattern.
-[[gnu::target("avx2,bmi2")]] void answer(const PolygonMask::Grid& grid, const CellQueries& queries,
-                                         LassoCandidates& found) {
+// A bit a query, in their order, and a word more, so that one can be read from any bit on.
+using Answers = std::array<std::uint64_t, LassoCandidates::capacity / 64 + 1>;
+
+inline std::uint64_t bits_from(const Answers& answers, std::size_t bit) {
+  const std::uint64_t low = answers[bit / 64], high = answers[bit / 64 + 1];
+  return low >> bit % 64 | high << 1 << (63 - bit % 64);
+}
+
+[[gnu::target("avx2,fma"), gnu::always_inline]] inline void look_up_cells(const PolygonMask::Grid& grid,
+                                                                          CellQueries& queries,
+                                                                          Answers& candidate, Answers& open) {
   static_assert(PolygonMask::outside == 0 && PolygonMask::inside == 1 && PolygonMask::on_edge == 2);
-  alignas(32) std::array<std::uint8_t, LassoCandidates::capacity> cells = {};
-  const std::uint32_t* const words = grid.words;
-  for (std::size_t i = 0; i < queries.count; ++i) {
-    const auto cell = static_cast<std::uint32_t>(queries.cells[i]);
-    cells[queries.points[i]] = static_cast<std::uint8_t>(words[cell / 16] >> 2 * (cell % 16) & 3U);
+  for (std::size_t i = 0; i < 64; i += 8)
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(queries.cells.data() + queries.count + i),
+                        _mm256_setzero_si256());
+  for (std::size_t i = 0; i < queries.count; i += 64) {
+    std::uint64_t not_outside = 0, on_edge = 0;
+    for (std::size_t k = 0; k < 64; k += 8) {
+      const __m256i cells =
+          _mm256_loadu_si256(reinterpret_cast<const __m256i*>(queries.cells.data() + i + k));
+      const __m256i words =
+          _mm256_i32gather_epi32(reinterpret_cast<const int*>(grid.words), _mm256_srli_epi32(cells, 4), 4);
+      const __m256i place = _mm256_slli_epi32(_mm256_and_si256(cells, _mm256_set1_epi32(15)), 1);
+      const __m256i cell = _mm256_srlv_epi32(words, place);
+      const __m256i edge = _mm256_slli_epi32(cell, 30);
+      const __m256i some = _mm256_or_si256(edge, _mm256_slli_epi32(cell, 31));
+      on_edge |= std::uint64_t{bits_of(_mm256_castsi256_ps(edge))} << k;
+      not_outside |= std::uint64_t{bits_of(_mm256_castsi256_ps(some))} << k;
+    }
+    candidate[i / 64] = not_outside;
+    open[i / 64] = on_edge;
   }
-  for (std::size_t i = 0; i < cells.size(); i += 32) {
-    const __m256i some = _mm256_load_si256(reinterpret_cast<const __m256i*>(cells.data() + i));
-    const __m256i open = _mm256_slli_epi16(some, 6);  // the upper of each two bits comes first
-    const auto o = static_cast<std::uint32_t>(_mm256_movemask_epi8(open));
-    const auto c =
-        static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_or_si256(open, _mm256_slli_epi16(some, 7))));
-    found.open[i / 64] |= std::uint64_t{o} << i % 64;
-    found.points[i / 64] |= std::uint64_t{c} << i % 64;
+}
+
+// Without branches: in which cells points lie follows no pattern.
+[[gnu::target("avx2,fma,bmi2,popcnt")]] void answer(const PolygonMask::Grid& grid, CellQueries& queries,
+                                                    LassoCandidates& found) {
+  Answers candidate = {}, open = {};
+  look_up_cells(grid, queries, candidate, open);
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < found.points.size(); ++i) {
+    const std::uint64_t asked = found.points[i];
+    found.points[i] = _pdep_u64(bits_from(candidate, first), asked);
+    found.open[i] = _pdep_u64(bits_from(open, first), asked);
+    first += static_cast<std::size_t>(__builtin_popcountll(asked));
   }
 }
 
@@ -205,8 +265,10 @@ template <bool perspective>
                                                         std::uint32_t first, std::span<std::uint32_t> numbers,
                                                         std::size_t& written) {
   const __m256i nibbles = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28), three_bits = _mm256_set1_epi32(7);
+  std::uint32_t* next = numbers.data();
+  const std::uint32_t* const end = next + numbers.size();
   std::size_t i = 0;
-  for (; i < bits.size() && written + 64 + 8 <= numbers.size(); ++i) {
+  for (; i < bits.size() && end - next >= 64 + 8; ++i) {
     __m256i number = _mm256_set1_epi32(static_cast<int>(first + 64 * static_cast<std::uint32_t>(i)));
     std::uint64_t word = bits[i];
     if (word == 0) continue;
@@ -214,12 +276,12 @@ template <bool perspective>
       const auto byte = static_cast<unsigned>(word & 255U);
       const __m256i packed = _mm256_set1_epi32(static_cast<int>(places_of_bits[byte]));
       const __m256i places = _mm256_and_si256(_mm256_srlv_epi32(packed, nibbles), three_bits);
-      _mm256_storeu_si256(reinterpret_cast<__m256i*>(numbers.data() + written),
-                          _mm256_add_epi32(number, places));
-      written += static_cast<std::size_t>(__builtin_popcount(byte));
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(next), _mm256_add_epi32(number, places));
+      next += __builtin_popcount(byte);
       number = _mm256_add_epi32(number, _mm256_set1_epi32(8));
     }
   }
+  written = static_cast<std::size_t>(next - numbers.data());
   return i;
 }
 
@@ -252,8 +314,8 @@ void find_candidates(const CellCamera& camera, const PolygonMask::Grid& grid, co
 #if defined(__x86_64__)
   if (has_avx2()) {
     CellQueries queries;
-    i = camera.perspective ? add_eights<true>(camera, grid, xyz, count, found, queries)
-                           : add_eights<false>(camera, grid, xyz, count, found, queries);
+    i = camera.perspective ? add_sixteens<true>(camera, grid, xyz, count, found, queries)
+                           : add_sixteens<false>(camera, grid, xyz, count, found, queries);
     if (queries.count > 0) answer(grid, queries, found);
   }
 #endif
