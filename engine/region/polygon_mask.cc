@@ -13,10 +13,17 @@ constexpr double kLargestCoordinate = 1 << 24;  // px: up to here rounding is sm
 // Sets the cells [first, last) of a row, which are outside yet.
 void paint(std::uint32_t* row, std::ptrdiff_t first, std::ptrdiff_t last, PolygonMask::Cell cell) {
   constexpr std::ptrdiff_t n = PolygonMask::cells_a_word;
+  if (first >= last) return;
   const std::uint32_t all = 0x55555555U * cell;
-  for (; first < last && first % n != 0; ++first) row[first / n] |= std::uint32_t{cell} << 2 * (first % n);
-  for (; first + n <= last; first += n) row[first / n] = all;
-  for (; first < last; ++first) row[first / n] |= std::uint32_t{cell} << 2 * (first % n);
+  const std::uint32_t from = all << 2 * (first % n), to = all >> 2 * (n - 1 - (last - 1) % n);
+  std::uint32_t *const begin = row + first / n, *const end = row + (last - 1) / n;
+  if (begin == end) {
+    *begin |= from & to;
+    return;
+  }
+  *begin |= from;
+  std::fill(begin + 1, end, all);
+  *end |= to;
 }
 
 }  // namespace
