@@ -80,7 +80,7 @@ Result<int> fit(const FitRequest& request) {
   const PatchEntry& patch = document->patches.front();
   say_assumptions(document->scans.front());
   if (request.explain) {
-    for (const std::string& step : patch.fit->report.steps) say(step);
+    for (const std::string& step : steps_in_words(patch.fit->report)) say(step);
   }
   Outputs outputs;
   Result<std::string> set = write_patch_set(patch_set(*document));

@@ -15,6 +15,7 @@ class CellGrid {
       : bound_(bound),
         doubtless_(doubtless),
         side_(side),
+        inverse_(1.0 / side),
         columns_(count(reach.x())),
         rows_(count(reach.y())) {
     inside_.resize(static_cast<std::size_t>(columns_ * rows_));
@@ -54,7 +55,7 @@ class CellGrid {
     return 2 * static_cast<int>(cells < most_each_side ? cells : most_each_side);
   }
   int cell(double u, int cells) const {  // -1 where there is none
-    const double at = u / side_ + cells / 2;
+    const double at = u * inverse_ + cells / 2;
     return at >= 0.0 && at < cells ? static_cast<int>(at) : -1;
   }
   // Of a row's cells, how many of their samples lie inside: line by line, each an interval.
@@ -63,7 +64,7 @@ class CellGrid {
     const double last = fine * columns_ - 1;
     for (int i = 0; i < fine; ++i) {
       const auto [from, to] = bound_.across(side_ * (row - rows_ / 2 + (i + 0.5) / fine));
-      const auto place = [&](double x) { return fine * (x / side_ + columns_ / 2) - 0.5; };
+      const auto place = [&](double x) { return fine * (x * inverse_ + columns_ / 2) - 0.5; };
       const double first_hit = std::max(std::ceil(place(from)), 0.0),
                    last_hit = std::min(std::floor(place(to)), last);
       if (!(from <= to) || !(first_hit <= last_hit)) continue;
@@ -77,7 +78,7 @@ class CellGrid {
   }
 
   InsideOutline bound_, doubtless_;  // outside the latter is outside beyond the outline's own doubt
-  double side_;
+  double side_, inverse_;            // m, 1/m
   int columns_, rows_;
   std::vector<double> inside_, outside_;
 };

@@ -12,6 +12,7 @@
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
 #include "engine/fit/observation.h"
+#include "engine/fit/step_notes.h"
 #include "engine/patch/patch.h"
 
 namespace patchlab {
@@ -109,7 +110,7 @@ struct FitReport {
   std::vector<Candidate> candidates;       // best first
   std::vector<OutlineCandidate> outlines;  // best first; of a plane whose outline was not named
   std::vector<double> residuals;           // per observation, signed, in standard deviations
-  std::vector<std::string> steps;          // the nine steps with their numbers (--explain)
+  std::vector<StepNote> steps;             // with their numbers; steps_in_words() for --explain
 };
 
 struct FitResult {

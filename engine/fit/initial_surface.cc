@@ -124,8 +124,9 @@ NormalEquations height_equations(const Samples& samples, const HeightFrame& heig
       for (std::size_t i = 0; i < count; ++i)
         share.number[i] = samples.robust[at + i] * samples.bends[at + i];
     }
-    fastest_rows().heights(heights, samples.blocks[b], share.number, block_size, rows);
-    fastest_rows().add(columns, monomials + 1, block_size, sums);
+    const std::size_t lanes = whole_lanes(count);
+    fastest_rows().heights(heights, samples.blocks[b], share.number, lanes, rows);
+    fastest_rows().add(columns, monomials + 1, lanes, sums);
   }
   return normal_equations(sums, monomials);
 }
@@ -164,10 +165,10 @@ SurfaceState algebraic_sphere(const Samples& samples, const SurfaceState& near) 
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
   const double size = samples.extent;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Eigen::Vector4d row = (samples.q[i] / size).homogeneous();
-    const double weight = samples.robust[i] * samples.bends[i] * weight_along(samples.cov[i], near.R.col(2));
+    const Eigen::Vector4d row = (samples.q(i) / size).homogeneous();
+    const double weight = samples.robust[i] * samples.bends[i] * weight_along(samples.cov(i), near.R.col(2));
     A.noalias() += weight * row * row.transpose();
-    b.noalias() += weight * (samples.q[i] / size).squaredNorm() * row;
+    b.noalias() += weight * (samples.q(i) / size).squaredNorm() * row;
   }
   const Eigen::Vector4d solution = solve_least(A, b);
   const Vector3d centre = 0.5 * solution.head<3>() * size;
@@ -196,7 +197,7 @@ std::array<SurfaceState, 3> algebraic_cylinders(const Samples& samples) {
     Matrix3d A = Matrix3d::Zero();
     Vector3d b = Vector3d::Zero();
     for (std::size_t j = 0; j < samples.size(); ++j) {
-      const Vector2d u = across.transpose() * (samples.q[j] - mean) / size;
+      const Vector2d u = across.transpose() * (samples.q(j) - mean) / size;
       A += samples.robust[j] * u.homogeneous() * u.homogeneous().transpose();
       b += samples.robust[j] * u.squaredNorm() * u.homogeneous();
     }
@@ -263,16 +264,16 @@ SurfaceState height_field(const Samples& samples, const SurfaceState& frame) {
 Quadric quadric_through(const Samples& samples, const SurfaceState& frame,
                         const std::vector<std::size_t>& points) {
   HeightSums sums{.size = samples.extent};
-  for (const std::size_t i : points) sums.add(to_local(frame, samples.q[i]), 1.0);
+  for (const std::size_t i : points) sums.add(to_local(frame, samples.q(i)), 1.0);
   return {frame, sums.solve()};
 }
 
 double quadric_residual(const Quadric& quadric, const Samples& samples, std::size_t i) {
-  const Vector3d q = to_local(quadric.frame, samples.q[i]);
+  const Vector3d q = to_local(quadric.frame, samples.q(i));
   const Vector6& a = quadric.a;
   const Vector3d g(-a[1] - a[3] * q.x() - a[4] * q.y(), -a[2] - a[4] * q.x() - a[5] * q.y(), 1.0);
   const Vector3d g_world = quadric.frame.R * g;
-  return (q.z() - a.dot(monomials(q.x(), q.y()))) * std::sqrt(weight_along(samples.cov[i], g_world));
+  return (q.z() - a.dot(monomials(q.x(), q.y()))) * std::sqrt(weight_along(samples.cov(i), g_world));
 }
 
 Starts starts(const Samples& samples, const SurfaceModel& model, const SurfaceState& quadratic) {

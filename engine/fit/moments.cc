@@ -47,7 +47,7 @@ struct Influence {
 
 Influence<PlaneVector> influence_on_plane(const SurfaceFit& plane, const Samples& samples, std::size_t i,
                                           const Matrix3d& R) {
-  const Residual r = residual(Distance::paper, plane.model, plane.state, samples.q[i], samples.cov[i]);
+  const Residual r = residual(Distance::paper, plane.model, plane.state, samples.q(i), samples.cov(i));
   PlaneVector F_p;
   for (int row = 0; row < plane_size; ++row) F_p[row] = r.F_p[plane_rows[row]];
   return {F_p, R.transpose() * (plane.state.R * r.F_q)};
@@ -110,8 +110,8 @@ JointSums joint_sums(const Samples& samples, const SurfaceFit& fit, const FootPo
   const SampleRows rows(samples, fit.model, fit.state, options.distance);
   const auto add = [&](std::size_t i, const Residual& r, JointSums& sums) {
     if (samples.robust[i] == 0.0) return;
-    const Vector3d q = to_local(fit.state, samples.q[i]);
-    const Matrix3d S = fit.state.R.transpose() * samples.cov[i] * fit.state.R;
+    const Vector3d q = to_local(fit.state, samples.q(i));
+    const Matrix3d S = fit.state.R.transpose() * samples.cov(i) * fit.state.R;
     const Motion m = motion(r, fit, q, S, options.projection);
     const Matrix93 phi_x = feet.weight[i] * J_monomials(feet.x[i]);
     sums.M += phi_x.lazyProduct(m.X_chart);

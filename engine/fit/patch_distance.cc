@@ -4,104 +4,106 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <numeric>
 
-#include "engine/base/parallel.h"
 #include "engine/fit/inside_outline.h"
+#include "engine/fit/sample_rows.h"
 #include "engine/patch/surface.h"
 
 namespace patchlab {
 namespace {
 
-constexpr std::size_t blocks_a_chunk = 16;
-
-// The outline as a closed curve of straight pieces on the surface, in groups that balls hold: of most groups
-// their ball says that they are farther than what was found.
+// The outline as a closed curve of straight pieces on the surface, in groups that balls of one radius hold:
+// of most groups their ball says that they are farther than what was found.
 class Rim {
  public:
   Rim(const Boundary& bound, const Vector3d& kappa) {
     put_outline(bound);
-    for (std::size_t i = 0; i < points; ++i) {
-      Vector3d& q = curve_[i];
-      q.z() = kappa.z() == 0.0 ? 0.5 * (kappa.x() * q.x() * q.x() + kappa.y() * q.y() * q.y())
-                               : height(q.head<2>(), kappa);
+    if (kappa.z() == 0.0) {
+      from_.col(2) = 0.5 * (kappa.x() * from_.col(0).square() + kappa.y() * from_.col(1).square());
+    } else {
+      for (int i = 0; i < pieces; ++i) from_(i, 2) = height({from_(i, 0), from_(i, 1)}, kappa);
     }
-    curve_[points] = curve_[0];
-    for (std::size_t i = 0; i < points; ++i) {
-      const double squared = (curve_[i + 1] - curve_[i]).squaredNorm();
-      inverse_[i] = squared > 0.0 ? 1.0 / squared : 0.0;
-    }
-    for (std::size_t i = 0; i < groups; ++i) balls_[i] = ball(i);
+    along_.topRows<pieces - 1>() = from_.bottomRows<pieces - 1>() - from_.topRows<pieces - 1>();
+    along_.row(pieces - 1) = from_.row(0) - from_.row(pieces - 1);
+    const Eigen::Array<double, pieces, 1> squared = squares(along_);
+    inverse_ = (squared > 0.0).select(squared.inverse(), 0.0);
+    for (int i = 0; i < groups; ++i) put_ball(i);
   }
   double squared_distance(const Vector3d& q) const {
-    std::array<double, groups> away;  // from the middles
-    std::size_t nearest = 0;
-    for (std::size_t i = 0; i < groups; ++i) {
-      away[i] = (q - balls_[i].centre).squaredNorm();
-      if (away[i] < away[nearest]) nearest = i;
-    }
-    double least = squared_distance(q, nearest), reach = std::sqrt(least);
-    for (std::size_t i = 0; i < groups; ++i) {
-      const double within = reach + balls_[i].radius;
-      if (i == nearest || away[i] > within * within) continue;
+    const Eigen::Array<double, groups, 1> away = squares(from_to(middle_, q));
+    Eigen::Index nearest;
+    away.minCoeff(&nearest);
+    double least = squared_distance(q, nearest), within = squared_reach(least);
+    for (Eigen::Index i = 0; i < groups; ++i) {
+      if (away[i] > within || i == nearest) continue;
       least = std::min(least, squared_distance(q, i));
-      reach = std::sqrt(least);
+      within = squared_reach(least);
     }
     return least;
   }
 
  private:
-  static constexpr std::size_t points = 128, group = 8, groups = points / group;
+  static constexpr int pieces = 128, group = 8, groups = pieces / group;
+  template <int count>
+  using Points = Eigen::Array<double, count, 3>;  // one a row
 
-  struct Ball {
-    Vector3d centre;
-    double radius;
-  };
-
-  static std::array<Vector2d, points> unit_circle() {
-    const std::vector<Vector2d> circle =
-        outline({BoundaryType::circle, BoundaryVector::Ones(1)}, static_cast<int>(points));
-    std::array<Vector2d, points> all;
-    std::ranges::copy(circle, all.begin());
+  template <int count>
+  static Eigen::Array<double, count, 1> squares(const Points<count>& d) {
+    return d.col(0).square() + d.col(1).square() + d.col(2).square();
+  }
+  template <class From>
+  static Points<From::RowsAtCompileTime> from_to(const From& from, const Vector3d& q) {
+    Points<From::RowsAtCompileTime> differences;
+    for (int axis = 0; axis < 3; ++axis) differences.col(axis) = q[axis] - from.col(axis);
+    return differences;
+  }
+  static Eigen::Array<double, pieces, 2> unit_circle() {
+    const std::vector<Vector2d> circle = outline({BoundaryType::circle, BoundaryVector::Ones(1)}, pieces);
+    Eigen::Array<double, pieces, 2> all;
+    for (int i = 0; i < pieces; ++i) all.row(i) = circle[static_cast<std::size_t>(i)].transpose();
     return all;
   }
   void put_outline(const Boundary& bound) {
-    static const std::array<Vector2d, points> circle = unit_circle();
+    static const Eigen::Array<double, pieces, 2> circle = unit_circle();
     if (is_round(bound)) {
       const Vector2d radii = extent(bound);
-      for (std::size_t i = 0; i < points; ++i) curve_[i].head<2>() = radii.cwiseProduct(circle[i]);
+      for (int axis = 0; axis < 2; ++axis) from_.col(axis) = radii[axis] * circle.col(axis);
       return;
     }
-    constexpr std::size_t a_side = points / 4;
+    constexpr int a_side = pieces / 4;
     const std::array<Vector2d, 4> corners = vertices(bound);
-    for (std::size_t i = 0; i < points; ++i) {
-      const double along = static_cast<double>(i % a_side) / a_side;
-      curve_[i].head<2>() = (1.0 - along) * corners[i / a_side] + along * corners[(i / a_side + 1) % 4];
+    for (std::size_t i = 0; i < pieces; ++i) {
+      const double share = static_cast<double>(i % a_side) / a_side;
+      from_.row(static_cast<Eigen::Index>(i)).head<2>() =
+          (1.0 - share) * corners[i / a_side] + share * corners[(i / a_side + 1) % 4];
     }
   }
-  Ball ball(std::size_t of) const {
-    const auto at = curve_.begin() + static_cast<std::ptrdiff_t>(of * group);
-    Ball ball{0.5 * (at[0] + at[group]), 0.0};
-    for (std::size_t i = 0; i <= group; ++i) {
-      ball.radius = std::max(ball.radius, (at[static_cast<std::ptrdiff_t>(i)] - ball.centre).squaredNorm());
-    }
-    ball.radius = std::sqrt(ball.radius);
-    return ball;
+  void put_ball(int of) {
+    const int first = of * group;
+    const Eigen::RowVector3d start = from_.row(first), end = from_.row((first + group) % pieces);
+    middle_.row(of) = 0.5 * (start + end);
+    const Vector3d middle = middle_.row(of).transpose();
+    const double to_pieces = squares(from_to(from_.middleRows<group>(first), middle)).maxCoeff();
+    radius_ = std::max(radius_, std::sqrt(std::max(to_pieces, (end.transpose() - middle).squaredNorm())));
   }
-  double squared_distance(const Vector3d& q, std::size_t of) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = of * group; i < (of + 1) * group; ++i) {
-      const Vector3d from = q - curve_[i], along = curve_[i + 1] - curve_[i];
-      const double s = std::clamp(along.dot(from) * inverse_[i], 0.0, 1.0);
-      least = std::min(least, (from - s * along).squaredNorm());
-    }
-    return least;
+  double squared_reach(double squared) const {
+    const double reach = std::sqrt(squared) + radius_;
+    return reach * reach;
+  }
+  double squared_distance(const Vector3d& q, Eigen::Index of) const {
+    const Eigen::Index first = of * group;
+    const auto along = along_.middleRows<group>(first);
+    Points<group> away = from_to(from_.middleRows<group>(first), q);
+    const Eigen::Array<double, group, 1> share =
+        ((along * away).rowwise().sum() * inverse_.segment<group>(first)).max(0.0).min(1.0);
+    for (int axis = 0; axis < 3; ++axis) away.col(axis) -= share * along.col(axis);
+    return squares(away).minCoeff();
   }
 
-  std::array<Vector3d, points + 1> curve_;
-  std::array<double, points> inverse_;
-  std::array<Ball, groups> balls_;
+  Points<pieces> from_, along_;
+  Eigen::Array<double, pieces, 1> inverse_;  // of squared lengths
+  Points<groups> middle_;
+  double radius_ = 0.0;  // m
 };
 
 // The feet of samples on the surface of a patch, nearest in metres, a block at a time.
@@ -115,14 +117,19 @@ class Feet {
       surface_.k3[i] = kappa_[i];
       for (Eigen::Index j = 0; j < 3; ++j) surface_.R[i][j] = R(i, j);
     }
-    for (const std::size_t diagonal : {0U, 3U, 5U}) std::ranges::fill(points_.cov[diagonal], 1.0);
+    points_.thin = false;
+    for (const std::size_t entry : {0U, 1U, 2U, 3U, 4U, 5U}) {
+      const bool diagonal = entry == 0 || entry == 3 || entry == 5;
+      std::ranges::fill(points_.cov[entry], diagonal ? 1.0 : 0.0);
+    }
   }
   void find(std::size_t block) {
     constexpr int F = row_count - 1;  // in metres, where noise is of unit variance
     std::memcpy(points_.q, samples_.blocks[block].q, sizeof points_.q);
     const std::size_t first = block * block_size;
-    const bool found = fastest_rows().exact(surface_, points_, block_size, rows_);
-    for (std::size_t i = 0; !found && i < block_size && first + i < samples_.size(); ++i) {
+    const std::size_t count = whole_lanes(std::min(block_size, samples_.size() - first));
+    const bool found = fastest_rows().exact(surface_, points_, count, rows_);
+    for (std::size_t i = 0; !found && i < count; ++i) {
       if (rows_.failed[i] == 0.0) continue;
       const Vector3d q = local(first + i), x = foot_point(q, Matrix3d::Identity(), kappa_).x;
       rows_.row[F][i] = (q - x).norm();
@@ -136,14 +143,14 @@ class Feet {
   }
   Vector3d local(std::size_t sample) const {
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(surface_.R[0]);
-    return R.transpose() * (samples_.q[sample] - Eigen::Map<const Vector3d>(surface_.c));
+    return R.transpose() * (samples_.q(sample) - Eigen::Map<const Vector3d>(surface_.c));
   }
 
  private:
   const Samples& samples_;
   Vector3d kappa_;
   RowSurface surface_{};
-  SampleBlock points_{};
+  SampleBlock points_;
   RowBlock rows_;
 };
 
@@ -153,12 +160,10 @@ double distance_rms(const Patch& patch, const Samples& samples) {
   const Boundary bound = boundary(patch);
   const InsideOutline inside(bound);
   const Rim rim(bound, k3(patch));
-  const std::size_t chunks = chunk_count(samples.blocks.size(), blocks_a_chunk);
-  std::vector<double> sums(chunks);
-  for_each_chunk(samples.blocks.size(), blocks_a_chunk, [&](const Chunk& chunk) {
+  const double sum = sum_over_parts<double>(samples.blocks.size(), [&](const Chunk& part) {
     Feet feet(patch, samples);
     double sum = 0.0;
-    for (std::size_t block = chunk.first; block < chunk.last; ++block) {
+    for (std::size_t block = part.first; block < part.last; ++block) {
       feet.find(block);
       const std::size_t first = block * block_size, count = std::min(block_size, samples.size() - first);
       for (std::size_t i = 0; i < count; ++i) {
@@ -167,10 +172,9 @@ double distance_rms(const Patch& patch, const Samples& samples) {
                                                      : rim.squared_distance(feet.local(first + i));
       }
     }
-    sums[chunk.number] = sum;
+    return sum;
   });
   const auto count = std::ranges::count_if(samples.robust, [](double weight) { return weight != 0.0; });
-  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
   return std::sqrt(sum / static_cast<double>(std::max<std::ptrdiff_t>(count, 1)));
 }
 

@@ -23,7 +23,8 @@ double counted(const FootPoints& feet) {
 double lateral_variance(const Samples& samples, const SurfaceFit& fit) {
   const Vector3d z = fit.state.R.col(2);
   double sum = 0.0;
-  for (const Matrix3d& cov : samples.cov) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Matrix3d cov = samples.cov(i);
     const Vector3d along = cov * z;
     sum += 0.5 * (cov.trace() - along.squaredNorm() / z.dot(along));
   }

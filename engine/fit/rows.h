@@ -18,6 +18,10 @@ inline constexpr std::size_t lane_count = 8;
 inline constexpr std::size_t block_size = 64;  // samples whose rows stay in the first-level cache
 inline constexpr int row_count = 9;            // F_p in the chart's eight coordinates, then F
 
+constexpr std::size_t whole_lanes(std::size_t samples) {
+  return (samples + lane_count - 1) / lane_count * lane_count;
+}
+
 // The surface in the order of the chart: q_local = R' (q - c), k3 = B k.
 struct RowSurface {
   double R[3][3];
@@ -28,6 +32,7 @@ struct RowSurface {
 
 // Samples side by side, in the frame of the points.
 struct alignas(64) SampleBlock {
+  SampleBlock() {}            // as it comes: what fills it fills all
   double q[3][block_size];    // m
   double cov[6][block_size];  // xx xy xz yy yz zz, m^2
   bool thin;                  // some covariance may have no extent in some direction
@@ -42,7 +47,9 @@ struct alignas(64) RowBlock {
 
 // Sums of products of rows, three by three: tile (I, J) of up to three groups of three rows, lane by lane.
 struct alignas(64) RowSums {
-  double tile[6][9][lane_count] = {};
+  RowSums() {}
+  double tile[6][9][lane_count];  // says nothing before something was added
+  bool empty = true;
 };
 
 // A frame for heights: (1, x, y, x^2/2, xy, y^2/2, z) in its coordinates, divided by `size`.

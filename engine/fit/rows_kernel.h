@@ -247,14 +247,15 @@ void height_rows(const HeightFrame& heights, const SampleBlock& samples, const d
   }
 }
 
-// Products of three rows with `columns` others, lane by lane; constant indices keep the sums in registers.
+// Products of three rows with `columns` others, lane by lane, added to sums or where they start; constant
+// indices keep the sums in registers.
 template <int columns>
-void add_products(const double* const* a, const double* const* b, std::size_t count,
+void add_products(const double* const* a, const double* const* b, std::size_t count, bool start,
                   double (*sums)[lane_count]) {
   for (std::size_t lane = 0; lane < lane_count; lane += width) {
     Lanes sum[3][columns];
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < columns; ++j) sum[i][j] = lanes(sums[3 * i + j] + lane);
+      for (int j = 0; j < columns; ++j) sum[i][j] = start ? Lanes{} : lanes(sums[3 * i + j] + lane);
     }
     for (std::size_t at = lane; at < count; at += lane_count) {
       const Lanes a0 = lanes(a[0] + at), a1 = lanes(a[1] + at), a2 = lanes(a[2] + at);
@@ -269,11 +270,11 @@ void add_products(const double* const* a, const double* const* b, std::size_t co
   }
 }
 // Of three rows with themselves: those on and above the diagonal.
-void add_squares(const double* const* a, std::size_t count, double (*sums)[lane_count]) {
+void add_squares(const double* const* a, std::size_t count, bool start, double (*sums)[lane_count]) {
   constexpr int used[6] = {0, 1, 2, 4, 5, 8};
   for (std::size_t lane = 0; lane < lane_count; lane += width) {
     Lanes sum[6];
-    for (int i = 0; i < 6; ++i) sum[i] = lanes(sums[used[i]] + lane);
+    for (int i = 0; i < 6; ++i) sum[i] = start ? Lanes{} : lanes(sums[used[i]] + lane);
     for (std::size_t at = lane; at < count; at += lane_count) {
       const Lanes a0 = lanes(a[0] + at), a1 = lanes(a[1] + at), a2 = lanes(a[2] + at);
       sum[0] += a0 * a0, sum[1] += a0 * a1, sum[2] += a0 * a2;
@@ -284,12 +285,14 @@ void add_squares(const double* const* a, std::size_t count, double (*sums)[lane_
 }
 
 void add_rows(const double* const* rows, int row_count, std::size_t count, RowSums& sums) {
+  const bool start = sums.empty;
+  sums.empty = false;
   int tile = 0;
   for (int i = 0; i < row_count; i += 3) {
-    add_squares(rows + i, count, sums.tile[tile++]);
+    add_squares(rows + i, count, start, sums.tile[tile++]);
     for (int j = i + 3; j < row_count; j += 3) {
       const auto add = j + 1 == row_count ? add_products<1> : add_products<3>;
-      add(rows + i, rows + j, count, sums.tile[tile++]);
+      add(rows + i, rows + j, count, start, sums.tile[tile++]);
     }
   }
 }

@@ -82,9 +82,7 @@ std::size_t SampleRows::count(std::size_t block) const {
   return std::min(block_size, samples_.size() - block * block_size);
 }
 
-std::size_t SampleRows::lanes_of(std::size_t block) const {
-  return (count(block) + lane_count - 1) / lane_count * lane_count;
-}
+std::size_t SampleRows::lanes_of(std::size_t block) const { return whole_lanes(count(block)); }
 
 void SampleRows::evaluate(std::size_t block, RowBlock& rows) const {
   const auto kernel = distance_ == Distance::exact ? kernel_.exact : kernel_.paper;
@@ -93,7 +91,7 @@ void SampleRows::evaluate(std::size_t block, RowBlock& rows) const {
   for (std::size_t i = 0; !found && i < count(block); ++i) {
     if (rows.failed[i] == 0.0) continue;
     const std::size_t sample = block * block_size + i;
-    put(patchlab::residual(distance_, model_, state_, samples_.q[sample], samples_.cov[sample]), i, rows);
+    put(patchlab::residual(distance_, model_, state_, samples_.q(sample), samples_.cov(sample)), i, rows);
   }
 }
 

@@ -43,19 +43,10 @@ Result<void> check_options(const Workbench& work) {
 }
 
 void log_bound(Workbench& work) {
-  std::string sizes;
   const Boundary b = boundary(work.patch);
-  for (int i = 0; i < b.d.size(); ++i) sizes += line(i == 0 ? "%.4g" : ", %.4g", b.d[i]);
-  work.log.push_back("6-9. " + std::string(name(work.plan.type->boundary)) + " with d = " + sizes);
-}
-
-std::string least_areas(const std::vector<OutlineCandidate>& outlines) {
-  std::string text;
-  for (const OutlineCandidate& outline : outlines) {
-    text += (text.empty() ? "; least areas, best first: " : ", ") + std::string(name(outline.boundary)) +
-            line(" %.4g m^2", outline.area);
-  }
-  return text;
+  StepNote note{Step::bound, name(work.plan.type->boundary), {}, static_cast<int>(b.d.size())};
+  std::copy(b.d.begin(), b.d.end(), note.numbers.begin());
+  work.log.push_back(note);
 }
 
 bool by_paper(const Workbench& work) { return work.options.method == FitMethod::paper; }
@@ -163,7 +154,7 @@ void fit_plane(Workbench& work) {
     work.plane = initial_plane(work.samples);
   }
   const Vector3d n = work.plane.R.col(2);
-  work.log.push_back(line("1. plane by least squares: normal (%.4f, %.4f, %.4f)", n.x(), n.y(), n.z()));
+  work.log.push_back({Step::plane, {}, {n.x(), n.y(), n.z()}, 3});
 }
 
 void fit_surfaces(Workbench& work) {
@@ -179,9 +170,10 @@ void fit_surfaces(Workbench& work) {
     work.robust_scale = robust.scale;
   }
   for (const SurfaceFit& fit : work.fits) {
-    work.log.push_back("2. " + words(surface_type(fit)) +
-                       line(": chi-square %.2f after %d iterations, curvature (%.4g, %.4g) 1/m", fit.chi2,
-                            fit.iterations, fit.state.k[0], fit.state.k[1]));
+    work.log.push_back({Step::surface,
+                        name(surface_type(fit)),
+                        {fit.chi2, static_cast<double>(fit.iterations), fit.state.k[0], fit.state.k[1]},
+                        4});
   }
 }
 
@@ -200,8 +192,7 @@ void refine_type(Workbench& work) {
   }
   if (options.robust) flag_outliers(work.samples, work.surface, work.robust_scale);
   work.surface_type = surface_type(work.surface);
-  work.log.push_back("3. type: " + words(surface_type(work.surface)) + ", " +
-                     work.choice.candidates.front().reason);
+  work.log.push_back({Step::type, name(work.surface_type)});
 }
 
 void choose_boundary(Workbench& work) {
@@ -212,8 +203,7 @@ void choose_boundary(Workbench& work) {
   work.plan.apex = by_paper(work) ? Apex::by_plane : Apex::over_centroid;
   work.plan.scale =
       work.bounds == BoundsMethod::extent ? extent_scale(work.containment) : paper_scale(work.containment);
-  work.log.push_back("4. boundary: " + std::string(name(boundary)) +
-                     line(", containment %.4g", work.containment) + least_areas(work.outlines));
+  work.log.push_back({Step::boundary, name(boundary), {work.containment}, 1});
 }
 
 void project_points(Workbench& work) {
@@ -226,7 +216,7 @@ void project_points(Workbench& work) {
   work.feet = std::move(projected.feet);
   work.moments = projected.moments;
   work.cov_joint = JointCovariance(projected.sums, work.surface, options.plane);
-  work.log.push_back(line("5. %zu points projected", work.samples.size()));
+  work.log.push_back({Step::projection, {}, {static_cast<double>(work.samples.size())}, 1});
 }
 
 void bound_cylinder(Workbench& work) {

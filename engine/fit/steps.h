@@ -37,7 +37,7 @@ struct Workbench {
   MomentVector moments = MomentVector::Zero();
   JointCovariance cov_joint;
   Patch patch;                   // steps 6 to 9
-  std::vector<std::string> log;  // each step in words, with its numbers
+  std::vector<StepNote> log;
 };
 
 // Options that make sense, points that span a surface. usage or no_finite_fit otherwise.

@@ -19,9 +19,7 @@ std::string text(const char* format, double a, double b = 0.0) {
 
 double depth_sigma(const Samples& samples, const Patch& patch) {
   const Vector3d z = axes(patch).col(2);
-  Matrix3d sum = Matrix3d::Zero();
-  for (const Matrix3d& cov : samples.cov) sum += cov;
-  return std::sqrt(z.dot(sum * z) / static_cast<double>(samples.size()));
+  return std::sqrt(z.dot(samples.mean_cov() * z));
 }
 
 // |kappa| d along each axis.

@@ -44,17 +44,17 @@ Row exact_row(const Matrix3d& R, const Vector3d& c, const Vector3d& k_3, const V
 
 class AllPoints : public ceres::CostFunction {
  public:
-  AllPoints(const Samples& samples, Distance distance) : samples_(samples), distance_(distance) {
+  AllPoints(const Points& points, Distance distance) : points_(points), distance_(distance) {
     mutable_parameter_block_sizes()->push_back(8);
-    set_num_residuals(static_cast<int>(samples.size()));
+    set_num_residuals(static_cast<int>(points.q.size()));
   }
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const Eigen::Map<const ChartVector> p(parameters[0]);
     const Vector3d r = p.segment<3>(2), c = p.tail<3>(), k_3(p[0], p[1], 0.0);
     const Matrix3d R = exp_map(r), Jr = right_jacobian(r);
     const auto row_of = distance_ == Distance::paper ? paper_row : exact_row;
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const Row row = row_of(R, c, k_3, samples_.q[i], samples_.cov[i]);
+    for (std::size_t i = 0; i < points_.q.size(); ++i) {
+      const Row row = row_of(R, c, k_3, points_.q[i], points_.cov[i]);
       residuals[i] = row.F;
       if (jacobians == nullptr || jacobians[0] == nullptr) continue;
       Eigen::Map<Eigen::Matrix<double, 1, 8>> J(jacobians[0] + 8 * i);
@@ -66,7 +66,7 @@ class AllPoints : public ceres::CostFunction {
   }
 
  private:
-  const Samples& samples_;
+  const Points& points_;
   Distance distance_;
 };
 
@@ -114,18 +114,18 @@ class Vertex : public ceres::SizedCostFunction<2, 8> {
 
 bool has_ceres() { return true; }
 
-Solved ceres(Ceres way, const Samples& samples, const Objective& objective, const SurfaceState& start) {
+Solved ceres(Ceres way, const Points& points, const Objective& objective, const SurfaceState& start) {
   ChartVector p;
   p << start.k, log_map(start.R), start.c;
   ::ceres::Problem problem;
   if (way == Ceres::per_point) {
-    for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t i = 0; i < points.q.size(); ++i) {
       problem.AddResidualBlock(
-          new ::ceres::AutoDiffCostFunction<OnePoint, 1, 8>(new OnePoint{samples.q[i], samples.cov[i]}),
+          new ::ceres::AutoDiffCostFunction<OnePoint, 1, 8>(new OnePoint{points.q[i], points.cov[i]}),
           nullptr, p.data());
     }
   } else {
-    problem.AddResidualBlock(new AllPoints(samples, objective.distance), nullptr, p.data());
+    problem.AddResidualBlock(new AllPoints(points, objective.distance), nullptr, p.data());
   }
   if (objective.prior) problem.AddResidualBlock(new Vertex(*objective.prior), nullptr, p.data());
   ::ceres::Solver::Options options;

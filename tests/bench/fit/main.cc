@@ -26,14 +26,16 @@ struct Set {
   std::size_t points;
   std::vector<Observations> observations;
   std::vector<Samples> samples;
+  std::vector<Points> points_of_samples;
   std::vector<SurfaceState> starts;
   std::vector<Objective> calibrated;
   double evaluations = 0.0;  // mean, of ours
 };
 
 Set observed(std::size_t points, std::vector<Observations> all) {
-  Set set{points, std::move(all), {}, {}, {}, 0.0};
+  Set set{points, std::move(all), {}, {}, {}, {}, 0.0};
   set.samples = samples_of(set.observations);
+  for (const Samples& samples : set.samples) set.points_of_samples.push_back(points_of(samples));
   return set;
 }
 
@@ -107,7 +109,7 @@ void add_all(const Set& set) {
   if (!has_ceres()) return;
   const auto by_ceres = [&](const char* name, Ceres way, bool exact) {
     add(name, set, [&set, way, exact](std::size_t i) {
-      return ceres(way, set.samples[i], exact ? set.calibrated[i] : Objective{}, set.starts[i]);
+      return ceres(way, set.points_of_samples[i], exact ? set.calibrated[i] : Objective{}, set.starts[i]);
     });
   };
   by_ceres("Ceres Cholesky", Ceres::normal_cholesky, false);
@@ -127,7 +129,7 @@ void add_mixed(const Set& set) {
         [=, &set](std::size_t i) { return ours(set.samples[i], objective(i, with_prior)); });
     if (!has_ceres()) continue;
     add("Ceres " + name, set, [=, &set](std::size_t i) {
-      return ceres(Ceres::normal_cholesky, set.samples[i], objective(i, with_prior), set.starts[i]);
+      return ceres(Ceres::normal_cholesky, set.points_of_samples[i], objective(i, with_prior), set.starts[i]);
     });
   }
 }
@@ -150,7 +152,9 @@ void print_accuracy(const Set& set) {
     log_det += std::abs(std::log(loose.cov.determinant() / tight.cov.determinant())) / n;
     if (has_ceres()) {
       gap_ceres +=
-          (ceres(Ceres::normal_cholesky, set.samples[i], {}, set.starts[i]).chi2 / tight.chi2 - 1.0) / n;
+          (ceres(Ceres::normal_cholesky, set.points_of_samples[i], {}, set.starts[i]).chi2 / tight.chi2 -
+           1.0) /
+          n;
     }
   }
   std::printf(

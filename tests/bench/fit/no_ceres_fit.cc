@@ -3,6 +3,6 @@
 namespace patchlab::bench {
 
 bool has_ceres() { return false; }
-Solved ceres(Ceres, const Samples&, const Objective&, const SurfaceState&) { return {}; }
+Solved ceres(Ceres, const Points&, const Objective&, const SurfaceState&) { return {}; }
 
 }  // namespace patchlab::bench

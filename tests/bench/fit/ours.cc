@@ -15,4 +15,13 @@ Solved ours(const Samples& samples, const Objective& objective, double relative_
   return {fit.cost, chart_covariance(fit), fit.state.c, fit.evaluations};
 }
 
+Points points_of(const Samples& samples) {
+  Points points;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    points.q.push_back(samples.q(i));
+    points.cov.push_back(samples.cov(i));
+  }
+  return points;
+}
+
 }  // namespace patchlab::bench

@@ -26,9 +26,16 @@ inline constexpr int most_iterations = 100;
 SurfaceState quadratic_start(const Samples& samples);
 Solved ours(const Samples& samples, const Objective& objective, double relative_stop = stop);
 
-// Of Ceres, from `start`; its making is not timed.
+// Samples as Ceres's rows read them, one after the other.
+struct Points {
+  std::vector<Vector3d> q;    // m, about the origin of the samples
+  std::vector<Matrix3d> cov;  // m^2
+};
+Points points_of(const Samples& samples);
+
+// Of Ceres, from `start`; its making and that of the points are not timed.
 enum class Ceres { normal_cholesky, qr, per_point };
 bool has_ceres();
-Solved ceres(Ceres way, const Samples& samples, const Objective& objective, const SurfaceState& start);
+Solved ceres(Ceres way, const Points& points, const Objective& objective, const SurfaceState& start);
 
 }  // namespace patchlab::bench

@@ -34,6 +34,7 @@ struct Regions {
   std::vector<PointIds> ids;
   std::vector<Observations> observations;
   std::vector<Samples> samples;
+  std::vector<Points> points_of_samples;
   std::vector<SurfaceState> starts;
   std::size_t points = 0;
 };
@@ -57,6 +58,7 @@ Regions choose_regions(const SeenScene& scene, const NoiseModel& noise) {
   }
   for (const Observations& observations : regions.observations) {
     regions.samples.push_back(*make_samples(observations, 10));
+    regions.points_of_samples.push_back(points_of(regions.samples.back()));
     regions.starts.push_back(quadratic_start(regions.samples.back()));
   }
   return regions;
@@ -92,7 +94,7 @@ std::string regions_table(const SeenScene& scene, const NoiseModel& noise) {
   if (has_ceres()) {
     times.add("Ceres", [&] {
       for (std::size_t i = 0; i < n; ++i)
-        theirs[i] = ceres(Ceres::normal_cholesky, regions.samples[i], paper, regions.starts[i]);
+        theirs[i] = ceres(Ceres::normal_cholesky, regions.points_of_samples[i], paper, regions.starts[i]);
     });
   }
   times.run();

@@ -118,7 +118,7 @@ TEST(MomentRows, FootPointsOfEveryKernelAreThoseOfOneSampleAtATime) {
     std::vector<double> weight(sample_count);
     double sum = 0.0;
     const auto residual_of = [&](std::size_t i) {
-      return residual(options.distance, scene.fit.model, scene.fit.state, samples.q[i], samples.cov[i]);
+      return residual(options.distance, scene.fit.model, scene.fit.state, samples.q(i), samples.cov(i));
     };
     for (std::size_t i = 0; i < sample_count; ++i) {
       const bool feet = options.distance == Distance::exact;

@@ -67,7 +67,7 @@ TEST(Rows, EveryKernelAgreesWithTheResidualOfEachSample) {
     for (const RowKernel* kernel : kernels()) {
       const SampleRows rows(scene.samples, model, scene.state, distance, *kernel);
       for_each_residual(rows, [&](std::size_t i, const Residual& fast) {
-        const Residual r = residual(distance, model, scene.state, scene.samples.q[i], scene.samples.cov[i]);
+        const Residual r = residual(distance, model, scene.state, scene.samples.q(i), scene.samples.cov(i));
         EXPECT_NEAR(fast.F, r.F, 1e-12 * std::max(1.0, std::abs(r.F))) << kernel->name;
         EXPECT_LE((fast.F_p - r.F_p).norm(), 1e-12 * r.F_p.norm()) << kernel->name;
         EXPECT_LE((fast.F_q - r.F_q).norm(), 1e-12 * r.F_q.norm()) << kernel->name;
@@ -124,7 +124,7 @@ TEST(Rows, CovariancesWithoutExtentAreClampedByEveryKernel) {
     const SampleRows rows(scene.samples, plane, scene.state, Distance::paper, *kernel);
     for_each_residual(rows, [&](std::size_t i, const Residual& fast) {
       const double v =
-          residual(Distance::paper, plane, scene.state, scene.samples.q[i], scene.samples.cov[i]).v;
+          residual(Distance::paper, plane, scene.state, scene.samples.q(i), scene.samples.cov(i)).v;
       EXPECT_NEAR(fast.v, v, 1e-9 * v) << kernel->name;
     });
   }
@@ -177,7 +177,7 @@ TEST(Rows, WhereAKernelFindsNoFootPointTheBracketedSearchAnswers) {
     rows.evaluate(0, block);
     for (const std::size_t i : {centre, along}) {
       const Residual r =
-          residual(Distance::exact, sphere, scene.state, scene.samples.q[i], scene.samples.cov[i]);
+          residual(Distance::exact, sphere, scene.state, scene.samples.q(i), scene.samples.cov(i));
       EXPECT_NE(block.failed[i], 0.0) << i;
       EXPECT_EQ(rows.residual(block, i).F, r.F) << i;
       EXPECT_EQ(rows.residual(block, i).x, r.x) << i;
@@ -194,7 +194,7 @@ TEST(Rows, ReevaluatedNoiseReachesTheKernels) {
   const SampleRows rows(scene.samples, plane, scene.state, Distance::paper);
   for_each_residual(rows, [&](std::size_t i, const Residual& fast) {
     EXPECT_NEAR(fast.v,
-                residual(Distance::paper, plane, scene.state, scene.samples.q[i], scene.samples.cov[i]).v,
+                residual(Distance::paper, plane, scene.state, scene.samples.q(i), scene.samples.cov(i)).v,
                 1e-12 * fast.v);
   });
 }
