@@ -36,7 +36,7 @@ struct Workbench {
   FootPoints feet;  // step 5
   MomentVector moments = MomentVector::Zero();
   JointCovariance cov_joint;
-  Patch patch;                   // steps 6 to 9
+  Patch patch;  // steps 6 to 9
   std::vector<StepNote> log;
 };
 

@@ -8,9 +8,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "engine/fit/fit_model.h"
 #include "engine/fit/fit_patch.h"
+#include "engine/fit/steps.h"
 #include "tests/bench/fit/arithmetic.h"
 #include "tests/bench/fit/height_field.h"
 #include "tests/bench/fit/patches.h"
@@ -79,11 +81,31 @@ void add(const std::string& name, const Set& set, One one, Threads threads = {})
   }
 }
 
-FitResult whole(const Observations& observations, FitMethod method, SurfaceRequest surface) {
+FitOptions fit_options(FitMethod method, SurfaceRequest surface) {
   FitOptions options;
   options.method = method;
   options.surface = surface;
-  return *fit_patch(observations, options);
+  return options;
+}
+
+FitResult whole(const Observations& observations, FitMethod method, SurfaceRequest surface) {
+  return *fit_patch(observations, fit_options(method, surface));
+}
+
+// Of a whole fit steps 1 to 3 alone, from samples that are ready.
+void add_surfaces(const std::string& name, const Set& set, FitMethod method) {
+  auto all = std::make_shared<std::vector<Workbench>>();
+  for (const Observations& observations : set.observations)
+    all->push_back(*begin(observations, fit_options(method, SurfaceRequest::elliptic_paraboloid)));
+  add(name, set, [all](std::size_t i) {
+    Workbench& work = (*all)[i];
+    work.fits.clear();
+    work.log.clear();
+    fit_plane(work);
+    fit_surfaces(work);
+    refine_type(work);
+    return work.surface.chi2;
+  });
 }
 
 void add_all(const Set& set) {
@@ -98,6 +120,8 @@ void add_all(const Set& set) {
   add("ours exact", set, [&](std::size_t i) { return ours(set.samples[i], set.calibrated[i]); });
   add("height field", set, [&](std::size_t i) { return height_field_fit(set.observations[i].points); });
   const auto both = SurfaceRequest::elliptic_paraboloid;
+  add_surfaces("surface of whole paper", set, FitMethod::paper);
+  add_surfaces("surface of whole calibrated", set, FitMethod::calibrated);
   add("whole paper", set, [&](std::size_t i) { return whole(set.observations[i], FitMethod::paper, both); });
   add("whole calibrated", set,
       [&](std::size_t i) { return whole(set.observations[i], FitMethod::calibrated, both); });
@@ -183,8 +207,13 @@ constexpr Line lines[] = {
     {"the same by Ceres", "Ceres mixed", "ours mixed"},
     {"72 patches of many shapes, mean, with the prior of the vertex", "ours mixed, prior", "ours"},
     {"the same by Ceres", "Ceres mixed, prior", "ours mixed, prior"},
-    {"whole paper's fit: surface, bound, covariance of all, validation", "whole paper", "ours"},
-    {"whole calibrated fit, type named", "whole calibrated", "ours exact"},
+    {"the surface of the paper's nine steps, which starts flat: steps 1 to 3", "surface of whole paper",
+     "ours"},
+    {"all nine of them: checks, surface, bound, covariance of all, validation", "whole paper",
+     "surface of whole paper"},
+    {"the surface of a calibrated fit, type named: steps 1 to 3", "surface of whole calibrated",
+     "ours exact"},
+    {"all nine steps of it", "whole calibrated", "surface of whole calibrated"},
     {"the same shared by two threads", "whole calibrated, shared", "whole calibrated"},
     {"whole calibrated fit, type chosen among seven", "whole automatic", "ours exact"},
 };
