@@ -13,7 +13,7 @@ namespace patchlab {
 
 // Parts that the samples of a large fit are shared out in; by their number alone, so that sums over them are
 // the same on any number of threads.
-inline constexpr std::size_t most_parts = 16, least_blocks_a_part = 24;
+inline constexpr std::size_t most_parts = 16, least_blocks_a_part = 14;
 
 inline std::size_t blocks_a_part(std::size_t blocks) {  // of even parts, a power of two of them
   std::size_t parts = 1;

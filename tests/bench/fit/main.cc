@@ -198,7 +198,7 @@ constexpr Line lines[] = {
     {"the same by Ceres, QR", "Ceres QR", "ours"},
     {"the same by Ceres, automatic derivatives, one residual a point", "Ceres per point", "ours"},
     {"two at once, each on a thread, the time of one", "ours, two at once", "ours"},
-    {"one shared by two threads (above 2048 points)", "ours, shared", "ours"},
+    {"one shared by two threads (from 1800 points on)", "ours, shared", "ours"},
     {"nothing but the arithmetic of its evaluations", "arithmetic", "ours"},
     {"an unweighted height field by Eigen, no covariance", "height field", "ours"},
     {"surface and its covariance, exact distance and prior (calibrated)", "ours exact", "ours"},

@@ -7,6 +7,7 @@
 #include <new>
 #include <vector>
 
+#include "engine/base/parallel.h"
 #include "engine/fit/fit_model.h"
 #include "tests/support/battery.h"
 #include "tests/support/seeded_random.h"
@@ -57,7 +58,8 @@ TEST(Allocation, IsCounted) {
 }
 
 TEST(Allocation, SurfaceFitsTakeNothingFromTheHeap) {
-  for (const std::size_t points : {30U, 150U, 3000U}) {
+  for_each_chunk(64, 1, [](const Chunk&) {});  // starts the threads, which takes something
+  for (const std::size_t points : {30U, 150U, 3000U, 15000U}) {
     const Observations observations = paraboloid(points);
     Samples samples = *make_samples(observations, 10);
     const std::size_t before = taken;
