@@ -5,10 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "engine/base/large_pages.h"
 
@@ -38,8 +40,8 @@ Error unreadable(const std::string& name, const std::string& why) {
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MB"; }
 
-constexpr std::size_t bytes_a_read = std::size_t{256}
-                                     << 10;  // which stay in the cache from being made to being read
+// They stay in the cache from being made to being read.
+constexpr std::size_t bytes_a_read = std::size_t{256} << 10;
 
 Result<Bytes> read_to_end(int descriptor, const std::string& name, std::uint64_t limit, std::size_t expected,
                           const Progress& progress) {

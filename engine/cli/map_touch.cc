@@ -77,12 +77,19 @@ std::string numbers(const Touched& touched) {
 }
 
 // The contact stands beside the observations: it has no outline.
-void note(PatchSet& set, const TouchRequest& request, nlohmann::ordered_json said, const Touched& touched) {
+Result<void> note(PatchSet& set, const TouchRequest& request, nlohmann::ordered_json said,
+                  const Touched& touched) {
   said["chi2"] = touched.chi2;
   said["dof"] = touched.dof;
   if (!request.when.empty()) said["when"] = request.when;
   const auto record = std::ranges::find(set.patches, request.patch, &PatchRecord::id);
-  record->unknown["touches"].push_back(nlohmann::json(std::move(said)));
+  auto& touches = record->unknown["touches"];
+  if (!touches.is_null() && !touches.is_array()) {
+    return Error{ErrorCode::unreadable, called(request.map) + ": patch \"" + request.patch +
+                                            "\": \"touches\" is no list; remove it from the file."};
+  }
+  touches.push_back(nlohmann::json(std::move(said)));
+  return {};
 }
 
 Result<int> touch(const TouchRequest& request) {
@@ -104,7 +111,7 @@ Result<int> touch(const TouchRequest& request) {
   say(request.patch + " touched: " + numbers(*touched));
   (*found)->patch = touched->patch;
   PatchSet out = set_of(*map, *set, {});
-  note(out, request, contact->said, *touched);
+  if (const Result<void> noted = note(out, request, contact->said, *touched); !noted) return noted.error();
   const Result<std::string> text = write_patch_set(out);
   if (!text) return text.error();
   Outputs outputs;

@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 
 #include "engine/cli/fit_table.h"
 #include "engine/cli/output.h"
@@ -63,6 +64,8 @@ Result<int> replay_journal(const ReplayRequest& request) {
   if (!request.on.empty()) options.on = request.on;
   const Result<Document> document = replay(request.journal, options);
   if (!document) return document.error();
+  const std::optional<std::string> other_results = notice_of_other_results(*document);
+  if (other_results) say(*other_results);
 
   const PatchSet set = patch_set(*document, fs::path(request.journal).filename().string());
   const Result<std::string> text = write_patch_set(set);
@@ -75,7 +78,6 @@ Result<int> replay_journal(const ReplayRequest& request) {
     outputs.add(request.map, *map);
   }
   std::vector<std::string> notices;
-  if (const auto notice = notice_of_other_results(*document)) notices.push_back(*notice);
   const ExportOptions with_points{.measured = measured_points(*document)};
   for (const auto& [format, file] : *exports) {
     Result<Exported> exported = export_patches(*format, set, with_points);
@@ -92,7 +94,8 @@ Result<int> replay_journal(const ReplayRequest& request) {
   }
   const Result<int> written = outputs.write();
   for (const std::string& notice : notices) say(notice);
-  return written && !notices.empty() ? Result<int>(exit_status(ErrorCode::refused)) : written;
+  return written && (other_results || !notices.empty()) ? Result<int>(exit_status(ErrorCode::refused))
+                                                        : written;
 }
 
 }  // namespace

@@ -251,9 +251,9 @@ MomentChartMatrix motion_of_samples(const RawSums& sums) {
   return M;
 }
 
-Projected of_sums(const RawSums& sums, const Shape& shape, FootPoints feet) {
+ProjectedSamples of_sums(const RawSums& sums, const Shape& shape, FootPoints feet) {
   const double scale = 1.0 / sums.weight[0][0];
-  Projected projected{std::move(feet), scale * by_moment(sums.weight[0]), {}};
+  ProjectedSamples projected{std::move(feet), scale * by_moment(sums.weight[0]), {}};
   scale_weights(scale, projected.feet);
   JointMatrix& G = projected.sums.G;
   G.topLeftCorner<chart_size, chart_size>() = sums.fit;
@@ -291,8 +291,8 @@ FootPoints plain_projection(const Samples& samples, const SurfaceFit& fit) {
   return feet;
 }
 
-Projected project(const Samples& samples, const SurfaceFit& fit, const JointOptions& options,
-                  const MomentKernel& kernel) {
+ProjectedSamples project(const Samples& samples, const SurfaceFit& fit, const JointOptions& options,
+                         const MomentKernel& kernel) {
   if (!kernels_know(options)) {
     FootPoints feet =
         options.projection == Projection::plain ? plain_projection(samples, fit) : foot_points(samples, fit);

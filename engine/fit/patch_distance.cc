@@ -162,17 +162,17 @@ double distance_rms(const Patch& patch, const Samples& samples) {
   const Rim rim(bound, k3(patch));
   const double sum = sum_over_parts<double>(samples.blocks.size(), [&](const Chunk& part) {
     Feet feet(patch, samples);
-    double sum = 0.0;
+    double of_part = 0.0;
     for (std::size_t block = part.first; block < part.last; ++block) {
       feet.find(block);
       const std::size_t first = block * block_size, count = std::min(block_size, samples.size() - first);
       for (std::size_t i = 0; i < count; ++i) {
         if (samples.robust[first + i] == 0.0) continue;
-        sum += inside.contains(feet.x(i), feet.y(i)) ? feet.squared_distance(i)
-                                                     : rim.squared_distance(feet.local(first + i));
+        of_part += inside.contains(feet.x(i), feet.y(i)) ? feet.squared_distance(i)
+                                                         : rim.squared_distance(feet.local(first + i));
       }
     }
-    return sum;
+    return of_part;
   });
   const auto count = std::ranges::count_if(samples.robust, [](double weight) { return weight != 0.0; });
   return std::sqrt(sum / static_cast<double>(std::max<std::ptrdiff_t>(count, 1)));

@@ -49,6 +49,11 @@ NormalEquations equations_of(const RowSums& sums, int free_size) {
     if (free_size != size) return equations_of<size + 1>(sums, free_size);
   }
   NormalEquations equations{0.0, StepMatrix(size, size), StepVector(size)};
+  if (sums.empty) {
+    equations.A.setZero();
+    equations.b.setZero();
+    return equations;
+  }
   double *A = equations.A.data(), *b = equations.b.data();
   repeat<size + 1>([&](auto i) {
     repeat<size + 1 - i>([&](auto after) {

@@ -80,7 +80,7 @@ void for_each_residual_of_parts(const SampleRows& rows, const What& what) {
   });
 }
 
-// what(i, residual) must write what belongs to i alone.
+// what(i, residual) must write what belongs to i, or to its block, alone.
 template <class What>
 void for_each_residual(const SampleRows& rows, const What& what) {
   for_each_residual_of_parts(rows, [&](std::size_t i, const Residual& r, std::size_t) { what(i, r); });

@@ -1,6 +1,5 @@
 #include "engine/fit/samples.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -200,14 +199,14 @@ void Samples::set_cov(std::size_t i, const Eigen::Matrix3d& cov_i) {
   const std::size_t at = i % block_size, last = i + 1 < count ? at + 1 : block_size;
   for (std::size_t entry = 0; entry < 6; ++entry)
     std::fill(block.cov[entry] + at, block.cov[entry] + last, entries[entry]);
-  if (thinnest(cov_i) < no_extent) block.thin = true;
+  if (!(thinnest(cov_i) >= no_extent)) block.thin = true;  // nor where it is none at all
 }
 
-bool Samples::all_count(std::size_t first, std::size_t count) const {
+bool Samples::all_count(std::size_t first, std::size_t how_many) const {
   std::uint64_t other = 0;  // without an early end, so that the loop is one of vector instructions
-  for (std::size_t i = first; i < first + count; ++i)
+  for (std::size_t i = first; i < first + how_many; ++i)
     other |= std::bit_cast<std::uint64_t>(robust[i]) ^ std::bit_cast<std::uint64_t>(1.0);
-  return other == 0 && std::memchr(bends.data() + first, 0, count) == nullptr;
+  return other == 0 && std::memchr(bends.data() + first, 0, how_many) == nullptr;
 }
 
 Eigen::Vector3d Samples::mean_viewpoint() const {

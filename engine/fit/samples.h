@@ -33,7 +33,7 @@ struct Samples {
   Eigen::Matrix3d cov(std::size_t i) const;  // m^2, as measured or re-evaluated at the foot points
   Eigen::Matrix3d mean_cov() const;          // of all points
   // Whether all of these count, and count fully.
-  bool all_count(std::size_t first, std::size_t count) const;
+  bool all_count(std::size_t first, std::size_t how_many) const;
   void set_cov(std::size_t i, const Eigen::Matrix3d& cov_i);
   Eigen::Vector3d viewpoint(std::size_t i) const {  // m, about origin
     const Observations& o = *observations;

@@ -212,7 +212,7 @@ void project_points(Workbench& work) {
     options = {Distance::paper, Projection::plain, false,
                work.plane_fit.A.size() > 0 ? &work.plane_fit : nullptr};
   }
-  Projected projected = project(work.samples, work.surface, options);
+  ProjectedSamples projected = project(work.samples, work.surface, options);
   work.feet = std::move(projected.feet);
   work.moments = projected.moments;
   work.cov_joint = JointCovariance(projected.sums, work.surface, options.plane);

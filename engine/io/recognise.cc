@@ -41,8 +41,8 @@ bool is_off(std::string_view bytes) {
          word.substr(0, word.size() - 3).find_first_not_of(prefix) == std::string_view::npos;
 }
 bool is_obj(std::string_view bytes) {
-  constexpr std::string_view entries[] = {"v", "vn", "vt", "vp", "f", "o", "g", "s", "mtllib", "usemtl"};
-  return one_of(first_word(bytes), entries);
+  constexpr std::string_view keywords[] = {"v", "vn", "vt", "vp", "f", "o", "g", "s", "mtllib", "usemtl"};
+  return one_of(first_word(bytes), keywords);
 }
 bool is_stl(std::string_view bytes) {
   constexpr std::size_t header = 80, triangle = 50;

@@ -19,6 +19,7 @@ MatrixXd levelled(const Measurement& m, int sights) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(m.R, known);
   if (solver.info() != Eigen::Success) return m.R;
   Eigen::VectorXd ratio = solver.eigenvalues();
+  ratio = ratio.cwiseMax(0.0);
   for (double& r : ratio) r += std::clamp(sights - r, -(1.0 - 1.0 / alike) * r, (alike - 1.0) * r);
   const MatrixXd V = known * solver.eigenvectors();
   return V * ratio.asDiagonal() * V.transpose();

@@ -141,7 +141,8 @@ Sensor<Noise> sensor_with(const Noise& weights, const Request& request) {
 
 // False where one cannot be written so: that of a point at the sensor itself.
 template <class Noise>
-bool write_all(const Noise& weights, const Request& request, bool plain, std::vector<Eigen::Matrix3d>& all) {
+bool write_all(const Noise& weights, const Request& request, [[maybe_unused]] bool plain,
+               std::vector<Eigen::Matrix3d>& all) {
   const Sensor<Noise> sensor = sensor_with(weights, request);
   const double* const points = request.points.front().data();
   double* const covariances = all.front().data();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 
@@ -56,8 +57,9 @@ int run_without_user(const ViewerOptions& options, App& app, Platform& platform)
   return status;
 }
 
-// ImGui lays out what input changed over several frames.
-constexpr int frames_after_input = 3;
+// What is waited before each of the frames after input, s: ImGui lays out over several of them what it
+// changed; the later ones show what the earlier took without notice.
+constexpr std::array waits_after_input = {0.0, 0.0, 0.0, 0.05, 0.3};
 
 // Waits at most so many seconds; whether something ended that early.
 bool something_came(Platform& platform, double patience) {
@@ -70,10 +72,12 @@ bool something_came(Platform& platform, double patience) {
 // Settings that cannot be written are not worth a word: the work itself is in the journal.
 int run_window(App& app, Platform& platform, const std::filesystem::path& settings_file) {
   Settings written = app.settings();
-  int to_rest = frames_after_input;
+  std::size_t quiet = 0;  // frames since the last input
   while (!platform.should_close() && !app.wants_to_close()) {
-    to_rest = something_came(platform, to_rest > 0 ? 0.0 : app.patience()) ? frames_after_input
-                                                                           : std::max(to_rest - 1, 0);
+    const bool resting = quiet == waits_after_input.size();
+    const bool came = something_came(platform, resting ? app.patience() : waits_after_input[quiet]);
+    if (came) quiet = 0;
+    if (!came && !resting) ++quiet;
     app.frame();
     if (app.settings() == written) continue;
     written = app.settings();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/scan/grid_normals.h"
 #include "engine/scan/normals.h"
 
 namespace patchlab::viewer {
@@ -70,7 +71,7 @@ std::vector<Vector3f> smoothed(const Scan& scan, const Vector3f& sensor, std::ve
 
 // The noise of a single point is as large as the steps between pixels: neighbours some pixels apart, then
 // their mean.
-std::vector<Vector3f> grid_normals(const Scan& scan, const Vector3f& sensor) {
+std::vector<Vector3f> difference_normals(const Scan& scan, const Vector3f& sensor) {
   std::vector<Vector3f> normals(scan.size(), Vector3f::Zero());
   const std::size_t width = scan.width, reach = std::max<std::size_t>(2, width / 128);
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -110,7 +111,8 @@ Ranges ranges_of(const Scan& scan, const Vector3f& sensor) {
 }
 
 std::vector<Vector3f> normals_of(const Scan& scan, const Vector3f& sensor, std::size_t limit) {
-  if (scan.organized()) return grid_normals(scan, sensor);
+  if (std::vector<Vector3f> of_pixels = grid_normals(scan); !of_pixels.empty()) return of_pixels;
+  if (scan.organized()) return difference_normals(scan, sensor);
   if (scan.finite_count <= limit) return estimate_normals(scan);
   return {};
 }

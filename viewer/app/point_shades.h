@@ -9,8 +9,9 @@
 
 namespace patchlab::viewer {
 
-// 0..255 a point; 0 where it is not finite. Quick for organised scans (normals by differences on the pixel
-// grid); others get normals from their neighbours up to `normals_limit` points, and distance alone above it.
+// 0..255 a point; 0 where it is not finite. Quick for organised scans: normals of planes through the pixels
+// around where a pinhole camera saw them, else by differences on the grid. Others get normals from their
+// neighbours up to `normals_limit` points, and distance alone above it.
 std::vector<std::uint8_t> point_shades(const Scan& scan, std::size_t normals_limit = 150'000);
 
 }  // namespace patchlab::viewer

@@ -1,8 +1,9 @@
-// regions_bench [--page FILE]: 21 regions of a scan fitted as a hand would choose them, beside Ceres; and a
-// fit about every 53rd of its pixels.
+// regions_bench [--page FILE]: 21 regions of a scan fitted as a hand would choose them, beside Ceres; and
+// fits about more and more of its pixels.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "engine/base/parallel.h"
 #include "engine/region/observe.h"
@@ -141,47 +142,80 @@ void window(const Scan& scan, std::uint32_t seed, std::uint32_t reach, std::uint
   }
 }
 
-std::string seeds_line(const Scan& scan, const NoiseModel& noise) {
-  PointIds seeds;
-  std::size_t valid = 0;
-  for (std::uint32_t id = 0; id < scan.size(); ++id) {
-    if (scan.finite[id] && valid++ % 53 == 0) seeds.push_back(id);
+// Fits about every `step`th pixel that has a depth: gathered, with covariances, six parameters.
+class SeedFits {
+ public:
+  SeedFits(const Scan& scan, const NoiseModel& noise, std::size_t step) : scan_(scan), noise_(noise) {
+    std::size_t valid = 0;
+    for (std::uint32_t id = 0; id < scan.size(); ++id) {
+      if (scan.finite[id] && valid++ % step == 0) seeds_.push_back(id);
+    }
+    points_.resize(seeds_.size());
+    chi2_.resize(seeds_.size());
   }
-  const SurfaceModel model = fixed_centre(surface_model(ModelKind::paraboloid));
-  std::vector<std::size_t> points(seeds.size());
-  std::vector<double> chi2(seeds.size());
-  const auto fit_all = [&] {
-    for_each_chunk(seeds.size(), 16, [&](const Chunk& chunk) {
+  void fit_all() {
+    for_each_chunk(seeds_.size(), 16, [&](const Chunk& chunk) {
       PointIds ids;
-      for (std::size_t i = chunk.first; i < chunk.last; ++i) {
-        const auto reach = static_cast<std::uint32_t>(525.0F * 0.075F / scan.positions[seeds[i]].z());
-        window(scan, seeds[i], reach, 1 + reach / 5, ids);
-        const Result<Observations> observations = observe(scan, noise, ids);
-        const Result<Samples> samples = make_samples(*observations, 10);
-        if (!samples) continue;
-        SurfaceFitOptions options;
-        options.distance = Distance::paper;
-        chi2[i] = fit_surface(*samples, model, quadratic_start(*samples), options).chi2;
-        points[i] = samples->size();
-      }
+      for (std::size_t i = chunk.first; i < chunk.last; ++i) fit(i, ids);
     });
-  };
+  }
+  std::size_t size() const { return seeds_.size(); }
+  std::size_t fitted() const {
+    return size() - static_cast<std::size_t>(std::ranges::count(points_, std::size_t{0}));
+  }
+  double mean_points() const {
+    return std::accumulate(points_.begin(), points_.end(), 0.0) / static_cast<double>(fitted());
+  }
+
+ private:
+  void fit(std::size_t i, PointIds& ids) {
+    static const SurfaceModel model = fixed_centre(surface_model(ModelKind::paraboloid));
+    const auto reach = static_cast<std::uint32_t>(525.0F * 0.075F / scan_.positions[seeds_[i]].z());
+    window(scan_, seeds_[i], reach, 1 + reach / 5, ids);
+    const Result<Observations> observations = observe(scan_, noise_, ids);
+    const Result<Samples> samples = make_samples(*observations, 10);
+    if (!samples) return;
+    SurfaceFitOptions options;
+    options.distance = Distance::paper;
+    chi2_[i] = fit_surface(*samples, model, quadratic_start(*samples), options).chi2;
+    points_[i] = samples->size();
+  }
+
+  const Scan& scan_;
+  const NoiseModel& noise_;
+  PointIds seeds_;
+  std::vector<std::size_t> points_;  // of each fit, 0 where there is none
+  std::vector<double> chi2_;
+};
+
+std::string seeds_table(const Scan& scan, const NoiseModel& noise) {
+  constexpr std::size_t steps[] = {848, 212, 53};
+  std::vector<SeedFits> fits;
+  for (const std::size_t step : steps) fits.emplace_back(scan, noise, step);
   RoundRobin times(7);
-  times.add("one", fit_all);
-  times.add("two", fit_all, 2);
+  for (SeedFits& some : fits) {
+    times.add(std::to_string(some.size()), [&some] { some.fit_all(); });
+    times.add(
+        std::to_string(some.size()) + " by two", [&some] { some.fit_all(); }, 2);
+  }
   times.run();
-  std::size_t sum = 0;
-  for (const std::size_t n : points) sum += n;
-  const auto fitted = static_cast<std::size_t>(
-      points.size() - static_cast<std::size_t>(std::ranges::count(points, std::size_t{0})));
-  char text[512];
-  std::snprintf(
-      text, sizeof text,
-      "\nA fit about every 53rd pixel (%zu seeds, %zu fitted, %.0f points each; gathered, with covariances, 6 parameters): %s "
-      "on one thread; on two %.2f ms at best.\n",
-      seeds.size(), fitted, static_cast<double>(sum) / static_cast<double>(fitted),
-      time_of(times, "one").c_str(), times.least_ms("two"));
-  return text;
+  std::string table =
+      "\n| fits about pixels all over the scan, six parameters, gathered, with covariances | points of each | time "
+      "| of each | grows as their number to the | two threads, times the least of one |\n|---|---|---|---|---|---|\n";
+  for (std::size_t k = 0; k < fits.size(); ++k) {
+    const std::string name = std::to_string(fits[k].size());
+    const double ms = times.median_ms(name);
+    table += "| " + name + ", " + std::to_string(fits[k].fitted()) + " of them fitted | " +
+             text("%.0f", fits[k].mean_points()) + " | " + time_of(times, name) + " | " +
+             text("%.1f µs", 1e3 * ms / static_cast<double>(fits[k].size())) + " | ";
+    if (k > 0) {
+      const double before = times.median_ms(std::to_string(fits[k - 1].size()));
+      table += text("%.2f", std::log(ms / before) / std::log(static_cast<double>(fits[k].size()) /
+                                                             static_cast<double>(fits[k - 1].size())));
+    }
+    table += " | " + text("%.2f ×", times.least_ms(name + " by two") / times.least_ms(name)) + " |\n";
+  }
+  return table;
 }
 
 }  // namespace
@@ -194,6 +228,6 @@ int main(int argc, char** argv) {
   const std::string text =
       date_and_machine() +
       ". The scan of the normals. Medians of processor time, half of the middle half as ±; two threads: least times.\n\n" +
-      regions_table(scene, kinect) + seeds_line(scene.scan, kinect);
+      regions_table(scene, kinect) + seeds_table(scene.scan, kinect);
   return report(argc, argv, "regions", text);
 }

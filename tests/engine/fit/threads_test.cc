@@ -41,5 +41,31 @@ TEST(Threads, AFitIsTheSameByteForByteOnOneOfThemAndOnMany) {
   }
 }
 
+// The start of 14,465 points leaves out all blocks of the last part.
+TEST(Threads, APartThatAddsNothingAddsNothing) {
+  test::SeededRandom random;
+  test::ScenarioOptions scenario;
+  scenario.points = 14465;
+  const PatchTypeRow& type = *find_patch_type(SurfaceType::elliptic_paraboloid, BoundaryType::ellipse);
+  const Observations observations =
+      test::observe(random, test::random_scenario(random, type, true, scenario), scenario);
+  FitOptions options;
+  options.surface = SurfaceRequest::elliptic_paraboloid;
+  const FitResult one = fit_on(1, observations, options);
+  fit_on(1, test::observe(random, test::random_scenario(random, type, true, scenario), scenario), options);
+  const FitResult again = fit_on(2, observations, options);
+  EXPECT_EQ(one.patch.parameters, again.patch.parameters);
+  EXPECT_EQ(one.report.iterations, again.report.iterations);
+}
+
+TEST(Threads, SumsOfNothingAreZero) {
+  for (const int size : {3, 6, 8}) {
+    const NormalEquations none = normal_equations(RowSums{}, size);
+    EXPECT_TRUE(none.A.isZero(0.0) && none.A.rows() == size);
+    EXPECT_TRUE(none.b.isZero(0.0));
+    EXPECT_EQ(none.cost, 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace patchlab
