@@ -99,7 +99,7 @@ void expect_alike(const JointSums& fast, const JointSums& each, const SurfaceFit
 TEST(MomentRows, SumsOfEveryKernelAreThoseOfOneSampleAtATime) {
   for_each_weighed_scene([](const WeighedScene& scene, const JointOptions& options) {
     for (const MomentKernel* kernel : moment_kernels()) {
-      const Projected fast = project(scene.samples, scene.fit, options, *kernel);
+      const ProjectedSamples fast = project(scene.samples, scene.fit, options, *kernel);
       const MomentVector m = moments(fast.feet.x, fast.feet.weight);
       for (const int i : asked_for(scene.fit)) {
         if (i < moments_at) continue;
@@ -157,7 +157,7 @@ TEST(MomentRows, CovariancesWithoutExtentCountByTheirShare) {
   for (const std::size_t i : {std::size_t{4}, sample_count - 2})
     scene.samples.set_cov(i, 1e-6 * x * x.transpose());
   for (const MomentKernel* kernel : moment_kernels()) {
-    const Projected fast = project(scene.samples, scene.fit, of_samples, *kernel);
+    const ProjectedSamples fast = project(scene.samples, scene.fit, of_samples, *kernel);
     const JointSums each = joint_sums(scene.samples, scene.fit, fast.feet, of_samples);
     expect_alike(fast.sums, each, scene.fit, kernel->name);
   }
@@ -167,8 +167,8 @@ TEST(MomentRows, KernelsThatFuseGiveTheSameBytes) {
   if (avx2_moment_rows() == nullptr || avx512_moment_rows() == nullptr)
     GTEST_SKIP() << "one of them at most runs here";
   for_each_weighed_scene([](const WeighedScene& scene, const JointOptions& options) {
-    const Projected narrow = project(scene.samples, scene.fit, options, *avx2_moment_rows());
-    const Projected wide = project(scene.samples, scene.fit, options, *avx512_moment_rows());
+    const ProjectedSamples narrow = project(scene.samples, scene.fit, options, *avx2_moment_rows());
+    const ProjectedSamples wide = project(scene.samples, scene.fit, options, *avx512_moment_rows());
     EXPECT_EQ(narrow.sums.G, wide.sums.G);
     EXPECT_EQ(narrow.sums.M, wide.sums.M);
     EXPECT_EQ(narrow.moments, wide.moments);
